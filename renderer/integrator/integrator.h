@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Radiance samples: one pixel sample is a pure function of (World, Camera, settings, pixel, sample index). Two drivers
+// compute it: the scalar one is the readable algorithm and the oracle of the batched one.
+#pragma once
+
+#include <atomic>
+#include <span>
+
+#include "renderer/integrator/settings.h"
+#include "renderer/scene/camera.h"
+#include "renderer/world/world.h"
+
+namespace candela {
+
+struct RayCounts {
+    uint64_t camera = 0;
+    uint64_t bounce = 0;
+    uint64_t shadow = 0;
+
+    uint64_t total() const { return camera + bounce + shadow; }
+    RayCounts& operator+=(const RayCounts& o) {
+        camera += o.camera;
+        bounce += o.bounce;
+        shadow += o.shadow;
+        return *this;
+    }
+};
+
+struct View {
+    Camera camera;
+    Vec2u extent{1};  // picture size in pixels
+};
+
+struct PixelSample {
+    uint16_t x = 0, y = 0;
+    uint32_t index = 0;
+};
+
+struct RadianceSample {
+    Vec3 radiance{0};  // may be non-finite when something went wrong: the film counts it
+    float alpha = 1;
+};
+
+// The scalar driver: one path from start to end.
+RadianceSample trace_sample(const World& world, const View& view, const IntegratorSettings& settings,
+                            PixelSample sample, RayCounts& counts) noexcept;
+
+// The batched driver: fills out[i] for samples[i], bit for bit what trace_sample gives. At most max_batch samples per
+// call. Looks at *cancel (may be null) between steps and returns false, with out undefined, once *cancel !=
+// cancel_expected.
+inline constexpr size_t max_batch = 256;
+bool trace_batch(const World& world, const View& view, const IntegratorSettings& settings,
+                 std::span<const PixelSample> samples, std::span<RadianceSample> out, RayCounts& counts,
+                 const std::atomic<uint64_t>* cancel = nullptr, uint64_t cancel_expected = 0) noexcept;
+
+}  // namespace candela

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// glTF 2.0 (.gltf, .glb) to Scene. Trusts nothing: every index, stride, size and path of the file is checked.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "renderer/io/diagnostics.h"
+#include "renderer/scene/scene.h"
+
+namespace candela {
+
+struct LoadOptions {
+    std::optional<uint32_t> scene;  // index; default: the file's scene, else the first
+    bool decode_images = true;      // false for `info`
+    uint64_t max_memory_bytes = uint64_t{16} << 30;
+    // Called with 0..1 and a word for the step ("reading", "images", "tangents"), from the loading thread only.
+    std::function<void(float, const char*)> progress;
+    const std::atomic<bool>* cancel = nullptr;  // set: the load ends soon with LoadError "cancelled"
+};
+
+// Throws LoadError.
+Scene load_gltf(const std::filesystem::path& path, Diagnostics& diagnostics, const LoadOptions& options = {});
+
+}  // namespace candela

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// All light that does not come from scattering: punctual lights, emissive triangles, the environment; and the sampler
+// that picks one of them. Directions point from the receiver to the light; pdfs are per solid angle at the receiver.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "renderer/lights/environment_light.h"
+#include "renderer/math/bounds.h"
+#include "renderer/math/math.h"
+#include "renderer/sampling/distribution.h"
+#include "renderer/scene/scene.h"
+
+namespace candela {
+
+// A triangle of an emissive surface, in world space.
+struct EmissiveTriangle {
+    Vec3 p0, edge1, edge2;
+    uint32_t surface = 0;     // World's placed primitive
+    uint32_t triangle = 0;    // index in its primitive
+    float mean_radiance = 0;  // mean luminance of the emission over the triangle, for choosing
+    bool two_sided = false;
+};
+
+// A punctual light placed in the world.
+struct PlacedLight {
+    LightKind kind = LightKind::point;
+    Vec3 position{0};
+    Vec3 direction{0, 0, -1};  // where a spot or directional light shines to
+    Vec3 intensity{1};         // W/sr; perpendicular irradiance W/m² for directional lights
+    float cos_inner = 1, cos_outer = 0;
+};
+
+struct LightSample {
+    Vec3 wi{0};
+    float distance = 0;  // infinity for environment and directional lights
+    // L / pdf. For an emissive triangle L is not known here: weight is 1 / pdf, and the caller multiplies by the
+    // emission found at (surface, triangle, u, v).
+    Vec3 weight{0};
+    float pdf = 0;  // 0: no sample. Per solid angle, choice included; the probability of the choice for delta lights
+    bool is_delta = false;
+    uint32_t surface = 0xffffffffu;  // set for emissive triangles
+    uint32_t triangle = 0;
+    float u = 0, v = 0;
+};
+
+struct Lights {
+    std::vector<PlacedLight> punctual;
+    std::vector<EmissiveTriangle> triangles;
+    std::optional<EnvironmentLight> environment;
+
+    // Alias table over [punctual…, triangles…], by estimated power, and the probability of choosing the environment
+    // first.
+    AliasTable local;
+    float environment_probability = 0;
+
+    bool empty() const { return punctual.empty() && triangles.empty() && !environment; }
+};
+
+// Fills the choosing part (local, environment_probability) from the lists. scene_bounds sets the reach of directional
+// lights and environment for comparing powers.
+void finish_lights(Lights& lights, const Bounds3& scene_bounds);
+
+// Chooses a light with u_pick and a point or direction on it with u, seen from a point.
+LightSample sample_light(const Lights& lights, const Vec3& from, float u_pick, const Vec2& u) noexcept;
+
+// The pdf with which sample_light finds the hit emissive triangle (index in Lights::triangles) along unit wi at that
+// distance; 0 where it would not (back of a one-sided emitter).
+float triangle_light_pdf(const Lights& lights, uint32_t emissive_index, const Vec3& wi, float distance) noexcept;
+// The same for a ray that leaves the scene.
+float environment_light_pdf(const Lights& lights, const Vec3& wi) noexcept;
+
+}  // namespace candela

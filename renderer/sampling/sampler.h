@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// The source of sample points: a pure function of (pixel, sample index, seed), so that a picture is the same to the bit
+// whatever thread computes which sample.
+#pragma once
+
+#include "renderer/math/math.h"
+
+namespace candela {
+
+enum class SamplerKind : uint8_t { sobol, independent };
+
+// Two statistically independent replicates run interleaved: sample i belongs to replicate i % replicate_count and is
+// point i / replicate_count of that replicate's own sequence. Their difference is an honest error estimate.
+inline constexpr uint32_t replicate_count = 2;
+
+// A 16-byte value. sobol: Owen-scrambled Sobol points in pairs of dimensions, each pair shuffled and scrambled by its
+// own hash (Burley 2020, "Practical Hash-based Owen Scrambling"); independent: hashed counter.
+class Sampler {
+  public:
+    Sampler() = default;
+    Sampler(SamplerKind kind, Vec2u pixel, uint32_t sample_index, uint32_t seed);
+
+    // Uniform in [0, 1).
+    float next_1d();
+    // Uniform in [0, 1)²; the two numbers of one call are stratified together.
+    Vec2 next_2d();
+
+    // Continues at a fixed dimension, so that each vertex of a path owns its dimensions however many the one before
+    // used.
+    void start_dimension(uint32_t dimension) { dimension_ = dimension; }
+    // A 32-bit hash of pixel, sample index and seed, for decisions outside the sequence (stochastic alpha).
+    uint32_t hash() const;
+
+  private:
+    uint32_t pixel_hash_ = 0;
+    uint32_t index_ = 0;
+    uint32_t dimension_ = 0;
+    SamplerKind kind_ = SamplerKind::sobol;
+};
+static_assert(sizeof(Sampler) == 16);
+
+}  // namespace candela

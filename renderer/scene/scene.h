@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+// What the file says: plain vectors with typed ids, editable, knowing neither Embree nor files.
+// Right-handed, +Y up, metres; counter-clockwise triangles seen from the front; rows of images from the top and uv
+// (0,0) at the top left, as glTF has it. All transforms map column vectors.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/image/image.h"
+#include "renderer/math/bounds.h"
+#include "renderer/scene/camera.h"
+
+namespace candela {
+
+// An index into one of Scene's vectors; Tag tells which.
+template <typename Tag>
+struct Id {
+    static constexpr uint32_t none = 0xffffffffu;
+    uint32_t value = none;
+
+    constexpr bool valid() const { return value != none; }
+    constexpr bool operator==(const Id&) const = default;
+};
+using MeshId = Id<struct MeshTag>;
+using MaterialId = Id<struct MaterialTag>;
+using TextureId = Id<struct TextureTag>;
+using ImageId = Id<struct ImageTag>;
+using NodeId = Id<struct NodeTag>;
+using LightId = Id<struct LightTag>;
+using CameraId = Id<struct CameraTag>;
+
+// Triangles that share one material: a glTF primitive. Per-vertex arrays are empty or as long as positions.
+struct Primitive {
+    std::vector<Vec3> positions;
+    std::vector<Vec3> normals;   // unit; never empty after loading unless flat (see flat_normals)
+    std::vector<Vec4> tangents;  // unit xyz, w = sign of the bitangent; filled when the material needs them
+    std::vector<Vec2> uv[2];
+    std::vector<Vec4> colors;      // linear RGBA factors
+    std::vector<Vec3u> triangles;  // vertex indices, all in range
+    MaterialId material;           // invalid: glTF's default material
+    bool flat_normals = false;     // the file gives no normals: the geometric normal shades, normals is empty
+};
+
+struct Mesh {
+    std::string name;
+    std::vector<Primitive> primitives;
+};
+
+// A mesh placed in the world: the flattened result of walking the active scene's nodes.
+struct Instance {
+    MeshId mesh;
+    NodeId node;
+    Mat4 world_from_object{1.0f};
+};
+
+enum class WrapMode : uint8_t { repeat, clamp_to_edge, mirrored_repeat };
+enum class TextureFilter : uint8_t { linear, nearest };
+
+struct Texture {
+    ImageId image;
+    WrapMode wrap_u = WrapMode::repeat;
+    WrapMode wrap_v = WrapMode::repeat;
+    TextureFilter filter = TextureFilter::linear;
+};
+
+// A use of a texture: which uv set, and KHR_texture_transform as a 2×3 matrix applied to (u, v, 1).
+struct TextureRef {
+    TextureId texture;
+    uint32_t uv_set = 0;
+    glm::mat3x2 uv_transform{1, 0, 0, 1, 0, 0};  // columns: u axis, v axis, offset
+
+    bool valid() const { return texture.valid(); }
+};
+
+enum class AlphaMode : uint8_t { opaque, mask, blend };
+
+struct Material {
+    std::string name;
+    Vec4 base_color_factor{1.0f};
+    TextureRef base_color;  // sRGB, alpha linear
+    float metallic_factor = 1.0f;
+    float roughness_factor = 1.0f;
+    TextureRef metallic_roughness;  // G roughness, B metallic
+    TextureRef normal;
+    float normal_scale = 1.0f;
+    TextureRef occlusion;  // read and reported, not used: a path tracer computes occlusion
+    Vec3 emissive_factor{0.0f};
+    float emissive_strength = 1.0f;
+    TextureRef emissive;  // sRGB
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha_cutoff = 0.5f;
+    // Both faces emit when set; without it only the front face does. Both faces always scatter.
+    bool double_sided = false;
+    bool unlit = false;
+    float ior = 1.5f;              // KHR_materials_ior
+    float specular_factor = 1.0f;  // KHR_materials_specular
+    Vec3 specular_color_factor{1.0f};
+
+    bool emits() const { return !unlit && emissive_strength > 0.0f && max_component(emissive_factor) > 0.0f; }
+};
+
+// 8 bits a channel as stored in the file; whether it is sRGB follows from the use, not from the image.
+struct SceneImage {
+    std::string name;
+    ImageRgba8 pixels;
+};
+
+enum class LightKind : uint8_t { point, spot, directional };
+
+// KHR_lights_punctual; shines along -Z of its node. Units are carried 1:1: candela as W/sr, lux as W/m².
+struct PunctualLight {
+    std::string name;
+    LightKind kind = LightKind::point;
+    Vec3 color{1.0f};
+    float intensity = 1.0f;
+    float range = infinity;  // read and reported; not applied: it would break the inverse-square law
+    float inner_cone_radians = 0.0f;
+    float outer_cone_radians = pi / 4.0f;
+};
+
+struct LightInstance {
+    LightId light;
+    NodeId node;
+    Mat4 world_from_light{1.0f};
+};
+
+struct CameraInstance {
+    std::string name;
+    NodeId node;
+    Camera camera;  // pose and projection in world space
+};
+
+struct Node {
+    std::string name;
+    NodeId parent;
+    std::vector<NodeId> children;
+    Mat4 parent_from_node{1.0f};
+    MeshId mesh;
+    bool in_active_scene = false;
+};
+
+// An equirectangular environment. Direction (x,y,z) reads u = atan2(z,x)/2π + ½ from the left and v = ½ − asin(y)/π
+// from the top. rotation_radians > 0 turns it counter-clockwise seen from +Y.
+struct Environment {
+    ImageRgb32f radiance;  // 1×1 for a constant sky
+    float rotation_radians = 0.0f;
+    float intensity = 1.0f;
+};
+
+struct ExtensionUse {
+    enum class Treatment : uint8_t { rendered, approximated, ignored, refused };
+    std::string name;
+    bool required = false;
+    Treatment treatment = Treatment::ignored;
+    std::string how;  // what an approximation does
+};
+
+struct Scene {
+    std::string source;  // the path as given
+    std::vector<Mesh> meshes;
+    std::vector<Material> materials;
+    std::vector<Texture> textures;
+    std::vector<SceneImage> images;
+    std::vector<PunctualLight> lights;
+    std::vector<Node> nodes;
+    std::vector<std::string> scene_names;  // all scenes of the file
+    uint32_t active_scene = 0;
+
+    // The active scene, flattened.
+    std::vector<Instance> instances;
+    std::vector<LightInstance> light_instances;
+    std::vector<CameraInstance> cameras;
+    std::optional<Environment> environment;
+
+    std::vector<ExtensionUse> extensions;
+    std::vector<std::string> animation_names;
+};
+
+// World-space bounds of all instances of the active scene.
+Bounds3 bounds_of(const Scene& scene);
+// Triangles of all meshes, each counted once, and of all instances.
+uint64_t unique_triangle_count(const Scene& scene);
+uint64_t instanced_triangle_count(const Scene& scene);
+
+}  // namespace candela

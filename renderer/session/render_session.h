@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// A running render: workers that trace slices of what was last submitted, and the newest frame of it.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+
+#include "renderer/film/film.h"
+#include "renderer/film/frame.h"
+#include "renderer/integrator/integrator.h"
+
+namespace candela {
+
+// Immutable once submitted.
+struct RenderRequest {
+    std::shared_ptr<const World> world;
+    View view;
+    IntegratorSettings settings;
+    uint32_t max_spp = std::numeric_limits<uint32_t>::max();  // the session idles when every pixel has this many
+    double max_seconds = infinity;                            // of rendering
+    double until_relative_error = 0;  // 0: off; looked at when spp is a power of two or every 16
+};
+
+struct SessionStatus {
+    uint64_t epoch = 0;  // of the newest submit
+    uint32_t spp = 0;    // complete passes of the current epoch
+    double render_seconds = 0;
+    RayCounts rays;
+    double rays_per_second = 0;  // recent
+    bool done = false;           // the stop condition was met
+    bool paused = false;
+    // Measured from the raising of the epoch to the moment when all workers had let go of the old one, and to the
+    // publication of the first frame.
+    double last_cancel_seconds = 0;
+    double last_first_frame_seconds = 0;
+};
+
+struct SessionOptions {
+    unsigned threads = 0;  // workers; 0: one per core
+    // The longest a young picture goes without a new frame, in seconds; grows as the picture settles.
+    double frame_seconds = 1.0 / 30.0;
+    bool publish_frames = true;  // false: only the last frame is resolved (headless)
+};
+
+class RenderSession {
+  public:
+    explicit RenderSession(const SessionOptions& options = {});
+    ~RenderSession();  // stops and joins
+    RenderSession(const RenderSession&) = delete;
+    RenderSession& operator=(const RenderSession&) = delete;
+
+    // Replaces what is rendered; returns its epoch. Never blocks on the workers. Old worlds are released on the
+    // caller's or the control thread.
+    uint64_t submit(RenderRequest request);
+    // The newest complete frame, or null before the first. Never blocks; the pointer stays valid until the next call.
+    // One reader thread.
+    const Frame* latest();
+    void pause();
+    void resume();
+    SessionStatus status() const;
+    // Blocks until the current epoch is done (or timeout_s passed); true when done.
+    bool wait_until_done(double timeout_s = infinity);
+    // Raises spp/time limits of the running request without restarting it.
+    void extend(uint32_t max_spp, double max_seconds);
+    // A copy of the film at a quiescent point between slices (blocks for at most a slice).
+    Film snapshot_film();
+    // Ends the current epoch as it is: workers finish their batches, a last frame is published, done becomes true.
+    void stop();
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace candela
