@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/integrator/stages.h"
+
+#include "renderer/math/hash.h"
+#include "renderer/sampling/mis.h"
+#include "renderer/sampling/warp.h"
+#include "renderer/world/surface_point.h"
+
+namespace candela {
+
+namespace {
+
+// Which dimensions of the sample sequence belong to what: four for the camera, then eight for each vertex.
+constexpr uint32_t camera_dimensions = 4;
+constexpr uint32_t vertex_dimensions = 8;
+
+// Radius of the Blackman-Harris window in pixels.
+constexpr float filter_radius = 1.5f;
+
+// Roulette starts after this many scattering events, and never lets a path survive with certainty: a closed scene
+// without absorption must end too.
+constexpr uint32_t roulette_depth = 3;
+constexpr float max_survival = 0.95f;
+
+void gather(const IntegratorSettings& settings, const PathState& path, Vec3 contribution, uint32_t depth,
+            Vec3& radiance) {
+    contribution *= path.throughput;
+    // The biased clamp, if asked for, holds for light that scattered more than once.
+    if (settings.clamp_indirect > 0.0f && depth > 1) {
+        const float largest = max_component(contribution);
+        if (largest > settings.clamp_indirect) contribution *= settings.clamp_indirect / largest;
+    }
+    radiance += contribution;
+}
+
+// The weight of light that a BSDF sample found, when a light sample could have found it with light_pdf.
+float found_light_weight(const IntegratorSettings& settings, const PathState& path, float light_pdf) {
+    if (path.from_delta || settings.estimator == Estimator::bsdf) return 1.0f;
+    if (settings.estimator == Estimator::light) return light_pdf > 0.0f ? 0.0f : 1.0f;
+    return mis_weight(path.bsdf_pdf, light_pdf);
+}
+
+void shade_miss(const World& world, const IntegratorSettings& settings, PathState& path) {
+    path.alive = false;
+    if (path.depth == 0 && settings.background != BackgroundKind::environment) {
+        if (settings.background == BackgroundKind::transparent) {
+            path.alpha = 0.0f;
+        } else {
+            path.radiance += settings.background_color;
+        }
+        return;
+    }
+    if (!world.lights.environment) return;
+    const Vec3 wi = path.ray.direction;
+    const float light_pdf = path.from_delta ? 0.0f : environment_light_pdf(world.lights, wi);
+    const float weight = found_light_weight(settings, path, light_pdf);
+    if (weight > 0.0f)
+        gather(settings, path, weight * world.lights.environment->radiance(wi), path.depth, path.radiance);
+}
+
+// The segment from a surface point to a point on a light, moved off both surfaces.
+Ray shadow_ray(const World& world, const SurfacePoint& point, const LightSample& light) {
+    Ray ray;
+    const float side = glm::dot(point.geometric_normal, light.wi) < 0.0f ? -1.0f : 1.0f;
+    ray.origin = offset_ray_origin(point.position, side * point.geometric_normal);
+    ray.direction = light.wi;
+    ray.t_max = infinity;
+    if (!std::isfinite(light.distance)) return ray;
+
+    Vec3 target = point.position + light.distance * light.wi;
+    if (light.surface != invalid_index) {
+        const EmissiveTriangle& triangle =
+            world.lights.triangles[world.surfaces[light.surface].first_emissive + light.triangle];
+        const Vec3 normal = glm::normalize(glm::cross(triangle.edge1, triangle.edge2));
+        target = offset_ray_origin(triangle.p0 + light.u * triangle.edge1 + light.v * triangle.edge2,
+                                   glm::dot(normal, light.wi) < 0.0f ? normal : -normal);
+    }
+    const Vec3 segment = target - ray.origin;
+    const float length = glm::length(segment);
+    if (length > 0.0f) ray.direction = segment / length;
+    ray.t_max = length;
+    return ray;
+}
+
+// Next-event estimation: one light, weighted against the chance that a BSDF sample finds it.
+ShadowRequest plan_connection(const World& world, const IntegratorSettings& settings, const SurfacePoint& point,
+                              const ShadedMaterial& material, const Vec3& wo, float u_pick, const Vec2& u,
+                              const PathState& path) {
+    ShadowRequest request;
+    const LightSample light = sample_light(world.lights, point.position, u_pick, u);
+    if (!(light.pdf > 0.0f)) return request;
+    if (settings.estimator == Estimator::bsdf && !light.is_delta) return request;
+    const Vec3 wi = point.shading.local_from_world(light.wi);
+    // Light from behind the true surface does not reach its front, whatever the shading normal says.
+    if (glm::dot(light.wi, point.geometric_normal) <= 0.0f || wi.z <= 0.0f) return request;
+
+    const BsdfEval bsdf = eval(material.bsdf, wo, wi);
+    if (is_black(bsdf.value)) return request;
+    Vec3 contribution = bsdf.value * light.weight;
+    if (light.surface != invalid_index) {
+        contribution *= emitted_radiance(world, light.surface, light.triangle, light.u, light.v);
+    }
+    if (!light.is_delta && settings.estimator == Estimator::mis) contribution *= mis_weight(light.pdf, bsdf.pdf);
+    if (is_black(contribution)) return request;
+
+    gather(settings, path, contribution, path.depth + 1, request.contribution);
+    request.ray = shadow_ray(world, point, light);
+    request.active = true;
+    return request;
+}
+
+}  // namespace
+
+PathState begin_path(const View& view, const IntegratorSettings& settings, PixelSample sample) noexcept {
+    PathState path;
+    path.sampler = Sampler(settings.sampler, Vec2u(sample.x, sample.y), sample.index, settings.seed);
+    // The filter is sampled, not weighted: every sample belongs to its pixel alone.
+    const Vec2 u_filter = path.sampler.next_2d();
+    const Vec2 offset =
+        settings.filter == PixelFilter::box ? u_filter - 0.5f : sample_blackman_harris(u_filter, filter_radius);
+    const Vec2 extent(view.extent);
+    const Vec2 film_uv = (Vec2(sample.x, sample.y) + 0.5f + offset) / extent;
+    path.ray = generate_ray(view.camera, extent.x / extent.y, film_uv, path.sampler.next_2d());
+    return path;
+}
+
+Hit extend(const World& world, const PathState& path, RayCounts& counts) noexcept {
+    ++(path.depth == 0 ? counts.camera : counts.bounce);
+    return world.accel->intersect(path.ray, hash_combine(path.sampler.hash(), path.depth));
+}
+
+ShadowRequest shade(const World& world, const IntegratorSettings& settings, const Hit& hit, PathState& path) noexcept {
+    if (!hit.valid()) {
+        shade_miss(world, settings, path);
+        return {};
+    }
+    const Vec3 wo_world = -path.ray.direction;
+    const SurfacePoint point = make_surface_point(world, hit, wo_world);
+    const ShadedMaterial material = shade_material(world, point);
+
+    // Emission that this segment ran into. Unlit surfaces are not in the light sampler, so nothing else can find them.
+    if (!is_black(material.emission)) {
+        float light_pdf = 0.0f;
+        const uint32_t first_emissive = world.surfaces[point.surface].first_emissive;
+        if (!path.from_delta && first_emissive != invalid_index) {
+            const float distance = glm::length(point.position - path.ray.origin);
+            light_pdf = triangle_light_pdf(world.lights, first_emissive + point.triangle, path.ray.direction, distance);
+        }
+        const float weight = found_light_weight(settings, path, light_pdf);
+        if (weight > 0.0f) gather(settings, path, weight * material.emission, path.depth, path.radiance);
+    }
+    if (material.unlit || (settings.max_depth > 0 && path.depth >= settings.max_depth)) {
+        path.alive = false;
+        return {};
+    }
+
+    // All random numbers of this vertex, at fixed dimensions.
+    path.sampler.start_dimension(camera_dimensions + vertex_dimensions * path.depth);
+    const Vec2 u_light = path.sampler.next_2d();
+    const Vec2 u_bsdf = path.sampler.next_2d();
+    const Vec2 u_choices = path.sampler.next_2d();
+    const float u_roulette = path.sampler.next_2d().x;
+
+    // Plan the connection to a light.
+    const Vec3 wo = point.shading.local_from_world(wo_world);
+    ShadowRequest request;
+    if (!world.lights.empty()) {
+        request = plan_connection(world, settings, point, material, wo, u_choices.x, u_light, path);
+    }
+
+    // Draw the next direction.
+    const BsdfSample scattered = sample(material.bsdf, wo, u_choices.y, u_bsdf);
+    const Vec3 wi = point.shading.world_from_local(scattered.wi);
+    const bool transmitted = scattered.wi.z < 0.0f;
+    path.alive = scattered.pdf > 0.0f && !is_black(scattered.weight) &&
+                 (glm::dot(wi, point.geometric_normal) < 0.0f) == transmitted;
+    if (!path.alive) return request;
+    path.throughput *= scattered.weight;
+    path.bsdf_pdf = scattered.pdf;
+    path.from_delta = scattered.is_delta;
+    path.eta_scale *= sqr(scattered.eta);
+    path.depth += 1;
+    path.ray.origin = offset_ray_origin(point.position, transmitted ? -point.geometric_normal : point.geometric_normal);
+    path.ray.direction = glm::normalize(wi);
+    path.ray.t_max = infinity;
+
+    // Russian roulette: a path lives on with about the share of light that it still carries.
+    if (settings.russian_roulette && path.depth >= roulette_depth) {
+        const float survival = std::min(max_component(path.throughput) * path.eta_scale, max_survival);
+        if (u_roulette >= survival) {
+            path.alive = false;
+        } else {
+            path.throughput /= survival;
+        }
+    }
+    return request;
+}
+
+void connect(const World& world, const ShadowRequest& request, PathState& path, RayCounts& counts) noexcept {
+    ++counts.shadow;
+    path.radiance += world.accel->transmittance(request.ray) * request.contribution;
+}
+
+}  // namespace candela

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The steps of one path. Each is a total function over one path; a driver calls them in the order
+// begin, (extend, shade, connect)*, finish — for one path after the other or for a batch of paths step by step.
+#pragma once
+
+#include "renderer/integrator/path_state.h"
+
+namespace candela {
+
+// The camera ray of a pixel sample.
+PathState begin_path(const View& view, const IntegratorSettings& settings, PixelSample sample) noexcept;
+
+// Follows path.ray to the nearest surface.
+Hit extend(const World& world, const PathState& path, RayCounts& counts) noexcept;
+
+// At the end of the segment: gathers emission, plans a light connection, draws the next direction or ends the path.
+ShadowRequest shade(const World& world, const IntegratorSettings& settings, const Hit& hit, PathState& path) noexcept;
+
+// Adds the planned light if it comes through.
+void connect(const World& world, const ShadowRequest& request, PathState& path, RayCounts& counts) noexcept;
+
+inline RadianceSample finish(const PathState& path) {
+    return {path.radiance, path.alpha};
+}
+
+}  // namespace candela
