@@ -58,8 +58,14 @@ struct AccelError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+// Whether a transform may be that of an AccelInstance: finite, and with an inverse that single precision can hold. Other
+// geometry must be moved to world space.
+bool can_be_instanced(const Mat4& world_from_object) noexcept;
+
 class Accel {
   public:
+    struct Impl;  // private to the room
+
     // Builds with all cores. progress gets 0..1 from any thread. Throws AccelError; "cancelled" when *cancel was set.
     static std::unique_ptr<Accel> build(const AccelInput& input, const std::function<void(float)>& progress = {},
                                         const std::atomic<bool>* cancel = nullptr);
@@ -77,7 +83,6 @@ class Accel {
     uint64_t memory_bytes() const;
 
   private:
-    struct Impl;
     explicit Accel(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;
 };

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// The queries: what every ray runs through.
+#include "renderer/accel/accel.h"
+
+#include "renderer/accel/accel_impl.h"
+#include "renderer/math/hash.h"
+
+namespace candela {
+
+namespace {
+
+// Embree's build in Debian asserts on rays it dislikes, and the others may loop or miss: only sane rays go there. Every
+// comparison is false for NaN.
+bool is_traceable(const Accel::Impl& accel, const Ray& ray) {
+    return glm::dot(ray.origin, ray.origin) <= accel.origin_limit_squared &&
+           glm::dot(ray.direction, ray.direction) <= accel.direction_limit_squared && ray.t_max >= 0.0f;
+}
+
+void fill_ray(RTCRay& out, const Ray& ray) {
+    out.org_x = ray.origin.x;
+    out.org_y = ray.origin.y;
+    out.org_z = ray.origin.z;
+    out.tnear = 0.0f;
+    out.dir_x = ray.direction.x;
+    out.dir_y = ray.direction.y;
+    out.dir_z = ray.direction.z;
+    out.time = 0.0f;
+    out.tfar = ray.t_max;
+    out.mask = 0xffffffffu;
+    out.id = 0;
+    out.flags = 0;
+}
+
+struct Candidate {
+    uint32_t surface = 0, triangle = 0;
+    float opacity = 0;
+};
+
+// Single rays offer one candidate at a time. An opacity that is not a number counts as 0.
+Candidate evaluate_candidate(const OpacityQuery& query, const RTCFilterFunctionNArguments& arguments) {
+    RTCHitN* hit = arguments.hit;
+    Candidate out;
+    out.surface = query.accel->surface_of(RTCHitN_geomID(hit, 1, 0), RTCHitN_instID(hit, 1, 0, 0));
+    out.triangle = RTCHitN_primID(hit, 1, 0);
+    const float opacity = query.accel->opacity(query.accel->opacity_user, out.surface, out.triangle,
+                                               RTCHitN_u(hit, 1, 0), RTCHitN_v(hit, 1, 0));
+    out.opacity = std::min(std::max(0.0f, opacity), 1.0f);
+    return out;
+}
+
+}  // namespace
+
+void filter_stochastic_hit(const RTCFilterFunctionNArguments* arguments) {
+    if (arguments->valid[0] != -1) return;
+    const auto& query = *reinterpret_cast<const OpacityQuery*>(arguments->context);
+    const Candidate candidate = evaluate_candidate(query, *arguments);
+    const uint32_t hash = hash_combine(hash_combine(query.alpha_seed, candidate.surface), candidate.triangle);
+    if (unit_float(hash) >= candidate.opacity) arguments->valid[0] = 0;
+}
+
+void filter_shadow_hit(const RTCFilterFunctionNArguments* arguments) {
+    if (arguments->valid[0] != -1) return;
+    auto& query = *reinterpret_cast<OpacityQuery*>(arguments->context);
+    query.transmittance *= 1.0f - evaluate_candidate(query, *arguments).opacity;
+    if (query.transmittance > 0.0f) arguments->valid[0] = 0;
+}
+
+Hit Accel::intersect(const Ray& ray, uint32_t alpha_seed) const noexcept {
+    const Impl& accel = *impl_;
+    Hit hit;
+    if (!is_traceable(accel, ray)) return hit;
+
+    OpacityQuery query;
+    embree::init_context(query.embree);
+    query.accel = &accel;
+    query.alpha_seed = alpha_seed;
+    RTCRayHit found;
+    fill_ray(found.ray, ray);
+    found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    embree::intersect(accel.top.get(), query.embree, found);
+
+    if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
+    hit.distance = found.ray.tfar;
+    hit.u = found.hit.u;
+    hit.v = found.hit.v;
+    hit.surface = accel.surface_of(found.hit.geomID, found.hit.instID[0]);
+    hit.triangle = found.hit.primID;
+    return hit;
+}
+
+float Accel::transmittance(const Ray& ray) const noexcept {
+    const Impl& accel = *impl_;
+    if (!is_traceable(accel, ray)) return 1.0f;
+
+    OpacityQuery query;
+    embree::init_context(query.embree);
+    query.accel = &accel;
+    RTCRay shadow;
+    fill_ray(shadow, ray);
+    embree::occluded(accel.top.get(), query.embree, shadow);
+    // Embree marks an occluded ray by tfar = -infinity; surfaces that let light pass are only in the product.
+    return shadow.tfar < 0.0f ? 0.0f : query.transmittance;
+}
+
+Accel::Accel(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+Accel::~Accel() = default;
+
+std::unique_ptr<Accel> Accel::build(const AccelInput& input, const std::function<void(float)>& progress,
+                                    const std::atomic<bool>* cancel) {
+    auto impl = std::make_unique<Impl>();
+    impl->build(input, progress, cancel);
+    return std::unique_ptr<Accel>(new Accel(std::move(impl)));
+}
+
+Bounds3 Accel::bounds() const {
+    return impl_->bounds;
+}
+
+uint64_t Accel::memory_bytes() const {
+    return static_cast<uint64_t>(std::max<int64_t>(impl_->monitor.bytes.load(std::memory_order_relaxed), 0));
+}
+
+}  // namespace candela
