@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/film/film.h"
+
+#include "renderer/sampling/sampler.h"
+
+namespace candela {
+
+Film::Film(Vec2u extent) : extent_(extent), pixels_(size_t{extent.x} * extent.y) {}
+
+void Film::clear() {
+    std::fill(pixels_.begin(), pixels_.end(), FilmPixel{});
+}
+
+void Film::add(Vec2u pixel, uint32_t sample_index, const Vec3& radiance, float alpha) noexcept {
+    FilmPixel& p = pixels_[size_t{pixel.y} * extent_.x + pixel.x];
+    if (!is_finite(radiance) || !std::isfinite(alpha)) {
+        ++p.non_finite;
+        return;
+    }
+    const float value = luminance(radiance);
+    p.radiance_sum += radiance;
+    p.alpha_sum += alpha;
+    p.luminance_sq_sum += value * value;
+    if (sample_index % replicate_count == 0) p.even_luminance_sum += value;
+    ++p.count;
+}
+
+}  // namespace candela

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/scene/scene.h"
+
+namespace candela {
+
+Bounds3 bounds_of(const Scene& scene) {
+    Bounds3 bounds;
+    for (const Instance& instance : scene.instances) {
+        for (const Primitive& primitive : scene.meshes[instance.mesh.value].primitives) {
+            // Only vertices that a triangle uses count.
+            for (const Vec3u& triangle : primitive.triangles) {
+                for (int i = 0; i < 3; ++i) {
+                    const Vec3 p(instance.world_from_object * Vec4(primitive.positions[triangle[i]], 1.0f));
+                    if (is_finite(p)) bounds.extend(p);
+                }
+            }
+        }
+    }
+    return bounds;
+}
+
+namespace {
+
+uint64_t triangles_of(const Mesh& mesh) {
+    uint64_t count = 0;
+    for (const Primitive& primitive : mesh.primitives)
+        count += primitive.triangles.size();
+    return count;
+}
+
+}  // namespace
+
+uint64_t unique_triangle_count(const Scene& scene) {
+    uint64_t count = 0;
+    for (const Mesh& mesh : scene.meshes)
+        count += triangles_of(mesh);
+    return count;
+}
+
+uint64_t instanced_triangle_count(const Scene& scene) {
+    uint64_t count = 0;
+    for (const Instance& instance : scene.instances)
+        count += triangles_of(scene.meshes[instance.mesh.value]);
+    return count;
+}
+
+}  // namespace candela
