@@ -144,7 +144,8 @@ ShadowRequest shade(const World& world, const IntegratorSettings& settings, cons
         const uint32_t first_emissive = world.surfaces[point.surface].first_emissive;
         if (!path.from_delta && first_emissive != invalid_index) {
             const float distance = glm::length(point.position - path.ray.origin);
-            light_pdf = triangle_light_pdf(world.lights, first_emissive + point.triangle, path.ray.direction, distance);
+            light_pdf = triangle_light_pdf(world.lights, first_emissive + point.triangle, path.ray.origin,
+                                           path.ray.direction, distance);
         }
         const float weight = found_light_weight(settings, path, light_pdf);
         if (weight > 0.0f) gather(settings, path, weight * material.emission, path.depth, path.radiance);

@@ -65,9 +65,10 @@ void finish_lights(Lights& lights, const Bounds3& scene_bounds);
 // Chooses a light with u_pick and a point or direction on it with u, seen from a point.
 LightSample sample_light(const Lights& lights, const Vec3& from, float u_pick, const Vec2& u) noexcept;
 
-// The pdf with which sample_light finds the hit emissive triangle (index in Lights::triangles) along unit wi at that
-// distance; 0 where it would not (back of a one-sided emitter).
-float triangle_light_pdf(const Lights& lights, uint32_t emissive_index, const Vec3& wi, float distance) noexcept;
+// The pdf with which sample_light, from the same point, finds the emissive triangle (index in Lights::triangles) along
+// the unit direction wi at that distance; 0 where it would not (back of a one-sided emitter).
+float triangle_light_pdf(const Lights& lights, uint32_t emissive_index, const Vec3& from, const Vec3& wi,
+                         float distance) noexcept;
 // The same for a ray that leaves the scene.
 float environment_light_pdf(const Lights& lights, const Vec3& wi) noexcept;
 
