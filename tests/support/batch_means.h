@@ -7,7 +7,8 @@
 
 namespace candela::test {
 
-// Collects estimates that are independent of each other; their scatter gives the standard error whatever happens within one.
+// Collects estimates that are independent of each other; their scatter gives the standard error whatever happens within
+// one.
 class BatchMeans {
   public:
     // Welford 1962.
@@ -21,7 +22,7 @@ class BatchMeans {
     double mean() const { return mean_; }
     double standard_error() const {
         const auto n = static_cast<double>(count_);
-        return count_ < 2 ? INFINITY : std::sqrt(squares_ / (n - 1) / n);
+        return count_ < 2 ? HUGE_VAL : std::sqrt(squares_ / (n - 1) / n);
     }
 
   private:

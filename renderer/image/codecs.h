@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// One decoder and encoder per format, each in its own file; codec.h chooses among them. All throw ImageError.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "renderer/image/codec.h"
+
+namespace candela {
+
+enum class ImageFormat : uint8_t { unknown, png, jpeg, webp, exr, hdr };
+ImageFormat sniff_format(std::span<const std::byte> bytes);
+
+// Throws when the size is 0 or over the limits.
+void check_size(uint64_t width, uint64_t height, const DecodeLimits& limits);
+
+ImageRgba8 decode_png(std::span<const std::byte> bytes, const DecodeLimits& limits);
+ImageRgba8 decode_jpeg(std::span<const std::byte> bytes, const DecodeLimits& limits);
+ImageRgba8 decode_webp(std::span<const std::byte> bytes, const DecodeLimits& limits);
+ImageRgba32f decode_exr(std::span<const std::byte> bytes, const DecodeLimits& limits);
+ImageRgba32f decode_hdr(std::span<const std::byte> bytes, const DecodeLimits& limits);
+
+}  // namespace candela
