@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace candela {
@@ -17,11 +18,23 @@ struct Diagnostic {
 // the rest are counted.
 class Diagnostics {
   public:
-    void warn(std::string where, std::string message) { warnings_.push_back({std::move(where), std::move(message)}); }
+    static constexpr size_t max_per_kind = 8;
+
+    void warn(std::string where, std::string message) {
+        if (++count_of_[message] > max_per_kind) {
+            ++folded_;
+            return;
+        }
+        warnings_.push_back({std::move(where), std::move(message)});
+    }
     const std::vector<Diagnostic>& warnings() const { return warnings_; }
+    // Warnings that were not kept.
+    size_t folded() const { return folded_; }
 
   private:
     std::vector<Diagnostic> warnings_;
+    std::unordered_map<std::string, size_t> count_of_;
+    size_t folded_ = 0;
 };
 
 // what() is "PATH: WHERE: REASON" on one line.

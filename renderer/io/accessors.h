@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Typed arrays out of accessors: every component type, normalised or not, strided, sparse, or absent (zeros).
+#pragma once
+
+#include <vector>
+
+#include "renderer/io/buffers.h"
+#include "renderer/math/math.h"
+
+namespace candela {
+
+class AccessorReader {
+  public:
+    AccessorReader(LoadContext& context, const Layout& layout, BufferStore& buffers)
+        : context_(context), layout_(layout), buffers_(buffers) {}
+
+    const AccessorLayout& layout(uint32_t accessor) const { return layout_.accessors[accessor]; }
+
+    // Elements as floats, with normalized integers mapped to [0,1] or [-1,1] as glTF has it (section 3.6.2.2). The
+    // memory is booked with the context. where names the use for the error when the accessor's type is another.
+    std::vector<float> read_scalars(uint32_t accessor, const std::string& where);
+    std::vector<Vec2> read_vec2(uint32_t accessor, const std::string& where);
+    std::vector<Vec3> read_vec3(uint32_t accessor, const std::string& where);
+    std::vector<Vec4> read_vec4(uint32_t accessor, const std::string& where);
+    std::vector<Mat4> read_mat4(uint32_t accessor, const std::string& where);
+    // Unsigned scalars.
+    std::vector<uint32_t> read_indices(uint32_t accessor, const std::string& where);
+    // RGB (alpha 1) or RGBA; integers count as normalized even where the file forgot to say so.
+    std::vector<Vec4> read_colors(uint32_t accessor, const std::string& where);
+
+  private:
+    template <typename Element>
+    std::vector<Element> read_floats(uint32_t accessor, uint32_t rows, uint32_t columns, const char* type,
+                                     const std::string& where, bool always_normalized = false);
+    std::vector<uint64_t> read_sparse_positions(uint32_t accessor);
+
+    LoadContext& context_;
+    const Layout& layout_;
+    BufferStore& buffers_;
+};
+
+}  // namespace candela

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// The bytes of a file's buffers and buffer views, read once and decompressed when first asked for.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "renderer/io/files.h"
+#include "renderer/io/layout.h"
+
+namespace candela {
+
+class BufferStore {
+  public:
+    // Reads every buffer that is needed. glb_bin must outlive the store. Throws LoadError for buffers that are missing
+    // or shorter than they say; longer ones are legal, and exactly byteLength bytes of them are seen.
+    BufferStore(LoadContext& context, const Layout& layout, const AssetFiles& files,
+                std::optional<std::span<const std::byte>> glb_bin);
+
+    // byteLength bytes; valid as long as the store. Throws LoadError where compressed data is damaged.
+    std::span<const std::byte> view(uint32_t index);
+
+  private:
+    std::span<const std::byte> read_buffer(size_t index, const AssetFiles& files,
+                                           std::optional<std::span<const std::byte>> glb_bin);
+
+    LoadContext& context_;
+    const Layout& layout_;
+    std::vector<std::vector<std::byte>> owned_;
+    std::vector<std::span<const std::byte>> buffers_;
+    std::vector<std::vector<std::byte>> decoded_;  // by view; empty: not compressed or not yet asked for
+};
+
+}  // namespace candela

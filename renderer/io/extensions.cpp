@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/io/extensions.h"
+
+#include <nlohmann/json.hpp>
+
+namespace candela {
+namespace {
+
+using Treatment = ExtensionUse::Treatment;
+
+struct Known {
+    std::string_view name;
+    Treatment treatment;
+    bool harmless_when_ignored;  // may be required: without it the picture is the file's own default
+    std::string_view how;        // of approximations and of what is ignored
+};
+
+constexpr Known known[] = {
+    {"EXT_meshopt_compression", Treatment::rendered, true, ""},
+    {"EXT_texture_webp", Treatment::rendered, true, ""},
+    {"KHR_lights_punctual", Treatment::rendered, true, ""},
+    {"KHR_materials_emissive_strength", Treatment::rendered, true, ""},
+    {"KHR_materials_ior", Treatment::rendered, true, ""},
+    {"KHR_materials_specular", Treatment::rendered, true, ""},
+    {"KHR_materials_unlit", Treatment::rendered, true, ""},
+    {"KHR_mesh_quantization", Treatment::rendered, true, ""},
+    {"KHR_texture_transform", Treatment::rendered, true, ""},
+    {"KHR_animation_pointer", Treatment::ignored, false, "animations are not played"},
+    {"KHR_draco_mesh_compression", Treatment::ignored, false, "meshes come from their uncompressed form, if any"},
+    {"KHR_materials_anisotropy", Treatment::ignored, false, "highlights are isotropic"},
+    {"KHR_materials_clearcoat", Treatment::ignored, false, "materials have no coat"},
+    {"KHR_materials_diffuse_transmission", Treatment::ignored, false, "no light passes through thin surfaces"},
+    {"KHR_materials_dispersion", Treatment::ignored, false, "refraction does not depend on the wavelength"},
+    {"KHR_materials_iridescence", Treatment::ignored, false, "thin films have no colours"},
+    {"KHR_materials_pbrSpecularGlossiness", Treatment::ignored, false, "the metallic-roughness values are used"},
+    {"KHR_materials_sheen", Treatment::ignored, false, "cloth has no sheen"},
+    {"KHR_materials_transmission", Treatment::ignored, false, "glass is opaque"},
+    {"KHR_materials_variants", Treatment::ignored, true, "the default materials are used"},
+    {"KHR_materials_volume", Treatment::ignored, false, "bodies do not absorb light"},
+    {"KHR_node_visibility", Treatment::ignored, false, "all nodes are visible"},
+    {"KHR_texture_basisu", Treatment::ignored, false, "textures come from their fallback images, if any"},
+    {"EXT_mesh_gpu_instancing", Treatment::ignored, false, "each mesh is placed once"},
+    {"KHR_xmp", Treatment::ignored, true, "metadata"},
+    {"KHR_xmp_json_ld", Treatment::ignored, true, "metadata"},
+};
+
+const Known* find_known(std::string_view name) {
+    for (const Known& candidate : known) {
+        if (candidate.name == name) return &candidate;
+    }
+    return nullptr;
+}
+
+bool has_specular_textures(const Json& document) {
+    const auto materials = document.find("materials");
+    if (materials == document.end()) return false;
+    for (const Json& material : *materials) {
+        const auto extensions = material.find("extensions");
+        if (extensions == material.end()) continue;
+        const auto specular = extensions->find("KHR_materials_specular");
+        if (specular == extensions->end()) continue;
+        if (specular->contains("specularTexture") || specular->contains("specularColorTexture")) return true;
+    }
+    return false;
+}
+
+std::vector<std::string> names_in(const Json& document, const char* list) {
+    const auto found = document.find(list);
+    return found == document.end() ? std::vector<std::string>{} : found->get<std::vector<std::string>>();
+}
+
+}  // namespace
+
+std::vector<ExtensionUse> treat_extensions(LoadContext& context, const Json& document) {
+    std::vector<ExtensionUse> uses;
+    const auto use_of = [&](const std::string& name) -> ExtensionUse* {
+        const auto found = std::find_if(uses.begin(), uses.end(), [&](const ExtensionUse& u) { return u.name == name; });
+        return found == uses.end() ? nullptr : &*found;
+    };
+    const auto add = [&](const std::string& name) -> ExtensionUse& {
+        const Known* entry = find_known(name);
+        ExtensionUse use{name, false, Treatment::ignored, "unknown to candela"};
+        if (entry != nullptr) {
+            use.treatment = entry->treatment;
+            use.how = entry->how;
+        }
+        if (name == "KHR_materials_specular" && has_specular_textures(document)) {
+            use.treatment = Treatment::approximated;
+            use.how = "specular textures ignored";
+        }
+        return uses.emplace_back(std::move(use));
+    };
+
+    const std::vector<std::string> required = names_in(document, "extensionsRequired");
+    for (size_t i = 0; i < required.size(); ++i) {
+        if (use_of(required[i]) != nullptr) continue;
+        ExtensionUse& use = add(required[i]);
+        use.required = true;
+        const Known* entry = find_known(use.name);
+        if (entry == nullptr || !entry->harmless_when_ignored) {
+            context.fail(pointer_to("/extensionsRequired", i), "the required extension " + use.name +
+                                                                   " is not supported; export the scene without it");
+        }
+    }
+    const std::vector<std::string> used = names_in(document, "extensionsUsed");
+    for (size_t i = 0; i < used.size(); ++i) {
+        const bool listed = use_of(used[i]) != nullptr;
+        const ExtensionUse& use = listed ? *use_of(used[i]) : add(used[i]);
+        if (use.how == "metadata") continue;
+        if (use.treatment == Treatment::ignored) {
+            context.warn(pointer_to("/extensionsUsed", i), use.name + " is ignored: " + use.how);
+        } else if (use.treatment == Treatment::approximated) {
+            context.warn(pointer_to("/extensionsUsed", i), use.name + " is approximated: " + use.how);
+        }
+    }
+    return uses;
+}
+
+}  // namespace candela

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/io/load_context.h"
+
+#include <limits>
+
+namespace candela {
+
+void LoadContext::fail(std::string where, std::string reason) const {
+    throw LoadError(path_, std::move(where), std::move(reason));
+}
+
+void LoadContext::charge(uint64_t bytes, const std::string& where) {
+    if (bytes > bytes_left()) {
+        fail(where, "needs " + std::to_string(bytes) + " bytes, more than the memory limit of " +
+                        std::to_string(options_.max_memory_bytes) + " bytes allows");
+    }
+    used_bytes_ += bytes;
+}
+
+void LoadContext::charge(uint64_t count, uint64_t bytes_each, const std::string& where) {
+    if (bytes_each != 0 && count > std::numeric_limits<uint64_t>::max() / bytes_each) {
+        fail(where, "asks for more memory than can be counted");
+    }
+    charge(count * bytes_each, where);
+}
+
+void LoadContext::progress(float fraction, const char* step) const {
+    if (options_.progress) options_.progress(fraction, step);
+}
+
+void LoadContext::check_cancel() const {
+    if (options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed)) fail("", "cancelled");
+}
+
+}  // namespace candela

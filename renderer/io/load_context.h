@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// What every step of a load needs: whom to tell, how much memory is left, whether to go on.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "renderer/io/load_gltf.h"
+
+namespace candela {
+
+class LoadContext {
+  public:
+    LoadContext(std::string path, Diagnostics& diagnostics, const LoadOptions& options)
+        : path_(std::move(path)), diagnostics_(diagnostics), options_(options) {}
+
+    const std::string& path() const { return path_; }
+    const LoadOptions& options() const { return options_; }
+
+    // where is a JSON pointer into the document as the file has it, or empty.
+    [[noreturn]] void fail(std::string where, std::string reason) const;
+    void warn(std::string where, std::string message) { diagnostics_.warn(std::move(where), std::move(message)); }
+
+    // Books memory before it is allocated; throws LoadError where the limit would be passed.
+    void charge(uint64_t bytes, const std::string& where);
+    // count · bytes_each, which may overflow.
+    void charge(uint64_t count, uint64_t bytes_each, const std::string& where);
+    void release(uint64_t bytes) { used_bytes_ -= bytes < used_bytes_ ? bytes : used_bytes_; }
+    uint64_t bytes_left() const { return options_.max_memory_bytes - used_bytes_; }
+
+    void progress(float fraction, const char* step) const;
+    // Throws LoadError "cancelled" once the caller has asked for it.
+    void check_cancel() const;
+
+  private:
+    std::string path_;
+    Diagnostics& diagnostics_;
+    const LoadOptions& options_;
+    uint64_t used_bytes_ = 0;
+};
+
+// "/meshes", 3, "primitives", 1 → "/meshes/3/primitives/1".
+inline std::string pointer_to(std::string_view base, uint64_t index) {
+    return std::string(base) + "/" + std::to_string(index);
+}
+template <typename... Rest>
+std::string pointer_to(std::string_view base, uint64_t index, std::string_view member, Rest... rest) {
+    std::string head = pointer_to(base, index) + "/" + std::string(member);
+    if constexpr (sizeof...(rest) == 0) {
+        return head;
+    } else {
+        return pointer_to(head, rest...);
+    }
+}
+
+}  // namespace candela

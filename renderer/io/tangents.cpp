@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+// After Mikkelsen 2008, "Simulation of Wrinkled Surfaces Revisited", section 6: tangents are shared by the corners of faces
+// that meet in a vertex across an edge and agree in handedness, weighted by the faces' angles there.
+#include "renderer/io/tangents.h"
+
+#include <array>
+#include <bit>
+#include <numeric>
+#include <unordered_map>
+
+#include "renderer/math/hash.h"
+
+namespace candela {
+namespace {
+
+// The tangent direction of one face and how its texture lies on it.
+struct Face {
+    Vec3 tangent{0};            // along +u, unit; 0 where uv has no extent
+    bool keeps_orientation = false;  // uv turns the same way as the face
+    bool any_orientation = true;     // no area in uv: joins whatever is beside it
+};
+
+bool normalize_or_zero(Vec3& v) {
+    const float length = glm::length(v);
+    v = length > 0.0f && std::isfinite(length) ? v / length : Vec3(0);
+    return length > 0.0f;
+}
+
+class TangentBuilder {
+  public:
+    TangentBuilder(Primitive& primitive, uint32_t uv_set) : primitive_(primitive), uv_(primitive.uv[uv_set]) {}
+
+    void run();
+
+  private:
+    uint32_t vertex(size_t corner) const { return primitive_.triangles[corner / 3][static_cast<int>(corner % 3)]; }
+    Vec3 position(size_t corner) const { return primitive_.positions[vertex(corner)]; }
+    Vec3 normal(size_t corner) const {
+        return primitive_.normals.empty() ? face_normals_[corner / 3] : primitive_.normals[vertex(corner)];
+    }
+
+    void make_faces();
+    void weld_corners();
+    void join_across_edges();
+    void accumulate();
+    void write_back();
+
+    uint32_t find(uint32_t corner);
+    void join(size_t a, size_t b);
+    bool same_vertex(size_t a, size_t b) const;
+    uint32_t hash_of(size_t corner) const;
+
+    Primitive& primitive_;
+    const std::vector<Vec2>& uv_;
+    std::vector<Face> faces_;
+    std::vector<Vec3> face_normals_;
+    std::vector<uint32_t> welded_;  // by corner: the first corner with equal position, normal and uv
+    std::vector<uint32_t> parent_;  // union-find over corners
+    std::vector<Vec4> tangents_;    // by corner
+};
+
+void TangentBuilder::make_faces() {
+    const size_t count = primitive_.triangles.size();
+    faces_.resize(count);
+    face_normals_.resize(count);
+    for (size_t t = 0; t < count; ++t) {
+        const Vec3 d1 = position(3 * t + 1) - position(3 * t);
+        const Vec3 d2 = position(3 * t + 2) - position(3 * t);
+        face_normals_[t] = glm::cross(d1, d2);
+        normalize_or_zero(face_normals_[t]);
+        const Vec2 t1 = uv_[vertex(3 * t + 1)] - uv_[vertex(3 * t)];
+        const Vec2 t2 = uv_[vertex(3 * t + 2)] - uv_[vertex(3 * t)];
+        const float signed_area = t1.x * t2.y - t1.y * t2.x;
+        Face& face = faces_[t];
+        face.keeps_orientation = signed_area > 0.0f;
+        if (signed_area == 0.0f || !std::isfinite(signed_area)) continue;
+        face.tangent = (d1 * t2.y - d2 * t1.y) * (face.keeps_orientation ? 1.0f : -1.0f);
+        face.any_orientation = !normalize_or_zero(face.tangent);
+    }
+}
+
+bool TangentBuilder::same_vertex(size_t a, size_t b) const {
+    return vertex(a) == vertex(b) ? !primitive_.normals.empty() || normal(a) == normal(b)
+                                  : position(a) == position(b) && normal(a) == normal(b) && uv_[vertex(a)] == uv_[vertex(b)];
+}
+
+uint32_t TangentBuilder::hash_of(size_t corner) const {
+    const Vec3 p = position(corner), n = normal(corner);
+    const Vec2 uv = uv_[vertex(corner)];
+    uint32_t hash = 0;
+    // Adding 0 makes -0 and 0 the same bits.
+    for (const float value : {p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y}) {
+        hash = hash_combine(hash, std::bit_cast<uint32_t>(value + 0.0f));
+    }
+    return hash;
+}
+
+void TangentBuilder::weld_corners() {
+    const size_t corners = 3 * primitive_.triangles.size();
+    welded_.resize(corners);
+    const size_t slots = std::bit_ceil(2 * corners + 1);
+    constexpr uint32_t empty = 0xffffffffu;
+    std::vector<uint32_t> table(slots, empty);
+    for (size_t corner = 0; corner < corners; ++corner) {
+        size_t slot = hash_of(corner) & (slots - 1);
+        while (table[slot] != empty && !same_vertex(table[slot], corner)) slot = (slot + 1) & (slots - 1);
+        if (table[slot] == empty) table[slot] = static_cast<uint32_t>(corner);
+        welded_[corner] = table[slot];
+    }
+}
+
+uint32_t TangentBuilder::find(uint32_t corner) {
+    while (parent_[corner] != corner) {
+        parent_[corner] = parent_[parent_[corner]];
+        corner = parent_[corner];
+    }
+    return corner;
+}
+
+void TangentBuilder::join(size_t a, size_t b) {
+    const uint32_t root_a = find(static_cast<uint32_t>(a));
+    const uint32_t root_b = find(static_cast<uint32_t>(b));
+    parent_[std::max(root_a, root_b)] = std::min(root_a, root_b);
+}
+
+void TangentBuilder::join_across_edges() {
+    struct Edge {
+        uint64_t key;     // both welded ends, the smaller first
+        uint32_t corner;  // where it starts
+        bool operator<(const Edge& o) const { return key != o.key ? key < o.key : corner < o.corner; }
+    };
+    const auto next = [](uint32_t corner) { return corner - corner % 3 + (corner % 3 + 1) % 3; };
+    parent_.resize(welded_.size());
+    std::iota(parent_.begin(), parent_.end(), 0u);
+    std::vector<Edge> edges;
+    edges.reserve(welded_.size());
+    for (uint32_t corner = 0; corner < welded_.size(); ++corner) {
+        const uint64_t a = welded_[corner], b = welded_[next(corner)];
+        if (a != b) edges.push_back({std::min(a, b) << 32 | std::max(a, b), corner});
+    }
+    std::sort(edges.begin(), edges.end());
+
+    // Each edge is shared with the first one that runs the other way and is still free.
+    std::vector<bool> taken(edges.size(), false);
+    for (size_t i = 0; i < edges.size(); ++i) {
+        if (taken[i]) continue;
+        for (size_t k = i + 1; k < edges.size() && edges[k].key == edges[i].key; ++k) {
+            const uint32_t a = edges[i].corner, b = edges[k].corner;
+            if (taken[k] || welded_[a] == welded_[b]) continue;
+            taken[i] = taken[k] = true;
+            const Face &face_a = faces_[a / 3], &face_b = faces_[b / 3];
+            const bool agree = face_a.keeps_orientation == face_b.keeps_orientation || face_a.any_orientation ||
+                               face_b.any_orientation;
+            if (agree) {
+                join(a, next(b));
+                join(next(a), b);
+            }
+            break;
+        }
+    }
+}
+
+void TangentBuilder::accumulate() {
+    const size_t corners = welded_.size();
+    std::vector<Vec3> sums(corners, Vec3(0));
+    std::vector<int8_t> keeps(corners, -1);
+    for (size_t corner = 0; corner < corners; ++corner) {
+        const Face& face = faces_[corner / 3];
+        if (face.any_orientation) continue;
+        // The face's tangent and the edges at this corner, seen in the plane of the vertex normal.
+        const Vec3 n = normal(corner);
+        const auto flatten = [&](Vec3 v) {
+            v -= glm::dot(n, v) * n;
+            normalize_or_zero(v);
+            return v;
+        };
+        const size_t first = corner - corner % 3;
+        const Vec3 to_next = flatten(position(first + (corner + 1 - first) % 3) - position(corner));
+        const Vec3 to_last = flatten(position(first + (corner + 2 - first) % 3) - position(corner));
+        const float angle = std::acos(std::clamp(glm::dot(to_next, to_last), -1.0f, 1.0f));
+        const uint32_t root = find(static_cast<uint32_t>(corner));
+        sums[root] += angle * flatten(face.tangent);
+        keeps[root] = face.keeps_orientation ? 1 : 0;
+    }
+    // Faces without a tangent of their own borrow from another group at the same vertex.
+    std::vector<uint32_t> lender(corners, 0xffffffffu);
+    for (uint32_t corner = 0; corner < corners; ++corner) {
+        const uint32_t root = find(corner);
+        if (keeps[root] >= 0 && lender[welded_[corner]] == 0xffffffffu) lender[welded_[corner]] = root;
+    }
+    tangents_.resize(corners);
+    for (uint32_t corner = 0; corner < corners; ++corner) {
+        uint32_t root = find(corner);
+        if (keeps[root] < 0 && lender[welded_[corner]] != 0xffffffffu) root = lender[welded_[corner]];
+        const Vec3 n = normal(corner);
+        Vec3 t = sums[root] - glm::dot(n, sums[root]) * n;
+        if (!normalize_or_zero(t)) {
+            const Vec3 axis = std::abs(n.x) < 0.6f ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+            t = axis - glm::dot(n, axis) * n;
+            normalize_or_zero(t);
+        }
+        // glTF's v runs down the picture: a texture that keeps its orientation there is mirrored in MikkTSpace's sense.
+        tangents_[corner] = Vec4(t, keeps[root] == 1 ? -1.0f : 1.0f);
+    }
+}
+
+void TangentBuilder::write_back() {
+    constexpr uint32_t unset = 0xffffffffu;
+    const size_t vertices = primitive_.positions.size();
+    std::vector<uint32_t> first_corner(vertices, unset);
+    std::unordered_map<uint64_t, uint32_t> split;  // (vertex, corner group) to the appended vertex
+    primitive_.tangents.assign(vertices, Vec4(1, 0, 0, 1));
+    const auto append = [](auto& values, uint32_t from) {
+        if (!values.empty()) values.push_back(values[from]);
+    };
+    for (uint32_t corner = 0; corner < tangents_.size(); ++corner) {
+        const uint32_t v = vertex(corner);
+        uint32_t& slot = primitive_.triangles[corner / 3][static_cast<int>(corner % 3)];
+        if (first_corner[v] == unset) {
+            first_corner[v] = corner;
+            primitive_.tangents[v] = tangents_[corner];
+        } else if (primitive_.tangents[v] != tangents_[corner]) {
+            const uint64_t key = uint64_t{v} << 32 | find(corner);
+            const auto [found, added] = split.try_emplace(key, static_cast<uint32_t>(primitive_.positions.size()));
+            if (added) {
+                append(primitive_.positions, v);
+                append(primitive_.normals, v);
+                append(primitive_.uv[0], v);
+                append(primitive_.uv[1], v);
+                append(primitive_.colors, v);
+                primitive_.tangents.push_back(tangents_[corner]);
+            }
+            slot = found->second;
+        }
+    }
+}
+
+void TangentBuilder::run() {
+    make_faces();
+    weld_corners();
+    join_across_edges();
+    accumulate();
+    write_back();
+}
+
+}  // namespace
+
+void generate_tangents(Primitive& primitive, uint32_t uv_set) {
+    TangentBuilder(primitive, uv_set).run();
+}
+
+}  // namespace candela
