@@ -8,7 +8,12 @@ namespace candela {
 Film::Film(Vec2u extent) : extent_(extent), pixels_(size_t{extent.x} * extent.y) {}
 
 void Film::clear() {
-    std::fill(pixels_.begin(), pixels_.end(), FilmPixel{});
+    clear_rows(0, extent_.y);
+}
+
+void Film::clear_rows(uint32_t row_begin, uint32_t row_end) noexcept {
+    std::fill_n(pixels_.begin() + static_cast<std::ptrdiff_t>(size_t{row_begin} * extent_.x),
+                size_t{row_end - row_begin} * extent_.x, FilmPixel{});
 }
 
 void Film::add(Vec2u pixel, uint32_t sample_index, const Vec3& radiance, float alpha) noexcept {

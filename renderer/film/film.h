@@ -28,6 +28,7 @@ class Film {
 
     Vec2u extent() const { return extent_; }
     void clear();
+    void clear_rows(uint32_t row_begin, uint32_t row_end) noexcept;
     // Adds one sample; samples of one pixel must come in the order of their index (a float sum depends on it).
     void add(Vec2u pixel, uint32_t sample_index, const Vec3& radiance, float alpha) noexcept;
 

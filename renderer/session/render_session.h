@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <string>
 
 #include "renderer/film/film.h"
 #include "renderer/film/frame.h"
@@ -30,17 +31,21 @@ struct SessionStatus {
     double rays_per_second = 0;  // recent
     bool done = false;           // the stop condition was met
     bool paused = false;
+    std::string error;  // why an epoch could not be rendered (the film does not fit in memory); done is set then
     // Measured from the raising of the epoch to the moment when all workers had let go of the old one, and to the
     // publication of the first frame.
     double last_cancel_seconds = 0;
     double last_first_frame_seconds = 0;
 };
 
+using TraceFunction = decltype(&trace_batch);
+
 struct SessionOptions {
     unsigned threads = 0;  // workers; 0: one per core
     // The longest a young picture goes without a new frame, in seconds; grows as the picture settles.
     double frame_seconds = 1.0 / 30.0;
     bool publish_frames = true;  // false: only the last frame is resolved (headless)
+    TraceFunction trace = &trace_batch;  // tests put their own here
 };
 
 class RenderSession {
@@ -50,7 +55,8 @@ class RenderSession {
     RenderSession(const RenderSession&) = delete;
     RenderSession& operator=(const RenderSession&) = delete;
 
-    // Replaces what is rendered; returns its epoch. Never blocks on the workers. Old worlds are released on the
+    // Replaces what is rendered; returns its epoch. Never blocks on the workers. Throws std::invalid_argument without a world
+    // or for an extent outside 1..65535. Old worlds are released on the
     // caller's or the control thread.
     uint64_t submit(RenderRequest request);
     // The newest complete frame, or null before the first. Never blocks; the pointer stays valid until the next call.
@@ -61,8 +67,6 @@ class RenderSession {
     SessionStatus status() const;
     // Blocks until the current epoch is done (or timeout_s passed); true when done.
     bool wait_until_done(double timeout_s = infinity);
-    // Raises spp/time limits of the running request without restarting it.
-    void extend(uint32_t max_spp, double max_seconds);
     // A copy of the film at a quiescent point between slices (blocks for at most a slice).
     Film snapshot_film();
     // Ends the current epoch as it is: workers finish their batches, a last frame is published, done becomes true.

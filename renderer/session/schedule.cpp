@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/session/schedule.h"
+
+namespace candela {
+
+namespace {
+
+uint32_t tiles_along(uint32_t size, uint32_t stride) {
+    const uint32_t step = tile_side * stride;
+    return (size + step - 1) / step;
+}
+
+}  // namespace
+
+uint32_t tile_count(const Pass& pass, Vec2u extent) {
+    return tiles_along(extent.x, pass.stride) * tiles_along(extent.y, pass.stride);
+}
+
+void list_tile(const Pass& pass, Vec2u extent, uint32_t tile, std::vector<PixelSample>& out) {
+    out.clear();
+    const uint32_t across = tiles_along(extent.x, pass.stride);
+    const uint32_t step = tile_side * pass.stride;
+    const uint32_t left = tile % across * step, top = tile / across * step;
+    const uint32_t right = std::min(left + step, extent.x), bottom = std::min(top + step, extent.y);
+    for (uint32_t y = top; y < bottom; y += pass.stride) {
+        for (uint32_t x = left; x < right; x += pass.stride) {
+            if (pass.done_stride != 0 && x % pass.done_stride == 0 && y % pass.done_stride == 0) continue;
+            out.push_back({static_cast<uint16_t>(x), static_cast<uint16_t>(y), pass.sample_index});
+        }
+    }
+}
+
+Schedule::Schedule(Vec2u extent, uint32_t first_stride) : extent_(extent), resolved_stride_(first_stride) {
+    pass_.stride = first_stride;
+}
+
+Slice Schedule::next(uint32_t tiles) {
+    const uint32_t count = tile_count(pass_, extent_);
+    Slice slice{pass_, tile_, count};
+    if (first_pass_done_) slice.end_tile = std::min(count, tile_ + std::max(tiles, 1u));
+    tile_ = slice.end_tile;
+    if (tile_ < count) return slice;
+
+    // The pass is given out: the next one halves the stride, or takes the next sample.
+    tile_ = 0;
+    first_pass_done_ = true;
+    resolved_stride_ = pass_.stride;
+    if (pass_.stride > 1) {
+        pass_.done_stride = pass_.stride;
+        pass_.stride /= 2;
+    } else {
+        pass_.done_stride = 0;
+        ++pass_.sample_index;
+        complete_ = pass_.sample_index;
+    }
+    return slice;
+}
+
+uint32_t choose_first_stride(Vec2u extent, double seconds_per_path, double target_seconds) {
+    const double paths = static_cast<double>(extent.x) * static_cast<double>(extent.y) / 64.0;
+    return paths * seconds_per_path > target_seconds ? 16 : 8;
+}
+
+}  // namespace candela
