@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// One function per command; each returns the exit status or throws CommandError.
+#pragma once
+
+#include "app/exit_status.h"
+#include "app/options.h"
+
+namespace candela {
+
+ExitStatus run_render(const RenderOptions& options);
+ExitStatus run_info(const InfoOptions& options);
+ExitStatus run_compare(const CompareOptions& options);
+
+}  // namespace candela

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// What the command line asked for, as plain values.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/image/tone.h"
+#include "renderer/integrator/settings.h"
+
+namespace candela {
+
+// Options that view, render and screenshot share.
+struct RenderOptions {
+    std::string scene;  // empty: the Cornell box
+    std::string command;  // the whole command line, for the records
+    std::optional<Vec2u> resolution;
+    std::string camera;  // name or index
+    std::optional<Vec3> eye, target, up;
+    std::optional<float> fov_degrees;
+    std::optional<float> aperture_m, focus_m;
+    std::optional<uint32_t> spp;
+    std::optional<double> seconds;
+    std::optional<double> until_error_percent;
+    IntegratorSettings integrator;
+    unsigned threads = 0;
+    std::string hdri;
+    float hdri_rotation_degrees = 0;
+    float hdri_intensity = 1;
+    std::optional<Vec3> sky;
+    ToneSettings tone;
+    std::optional<uint32_t> scene_index;
+    std::vector<std::string> aovs;
+    std::string stats_file;  // "-": standard output
+    std::string output;
+    bool quiet = false;
+    bool verbose = false;
+};
+
+struct InfoOptions {
+    std::string scene;
+    bool json = false;
+};
+
+struct CompareOptions {
+    std::string a, b;
+    bool json = false;
+    std::string output;  // the difference picture
+    std::optional<double> max_rmse, max_rel_mse, max_mae, max_flip;
+};
+
+}  // namespace candela

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "app/render_job.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <chrono>
+
+#include "app/exit_status.h"
+#include "renderer/image/codec.h"
+#include "renderer/io/load_gltf.h"
+
+namespace candela {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+CommandError usage(const std::string& line) {
+    return {ExitStatus::wrong_usage, line};
+}
+
+Environment read_environment(const RenderOptions& options) {
+    Environment out;
+    try {
+        const ImageRgba32f image = read_linear(options.hdri);
+        out.radiance = ImageRgb32f(image.width(), image.height());
+        for (size_t i = 0; i < image.size(); ++i) out.radiance.pixels()[i] = Vec3(image.pixels()[i]);
+    } catch (const ImageError& error) {
+        throw CommandError(ExitStatus::unreadable_scene,
+                           fmt::format("{}: {}; give an equirectangular .hdr or .exr file", options.hdri, error.what()));
+    }
+    out.rotation_radians = glm::radians(options.hdri_rotation_degrees);
+    out.intensity = options.hdri_intensity;
+    return out;
+}
+
+bool has_light(const Scene& scene) {
+    if (!scene.light_instances.empty() || scene.environment) return true;
+    for (const Instance& instance : scene.instances) {
+        for (const Primitive& primitive : scene.meshes[instance.mesh.value].primitives) {
+            if (primitive.material.valid() && scene.materials[primitive.material.value].emits()) return true;
+        }
+    }
+    return false;
+}
+
+std::optional<Environment> choose_environment(const RenderOptions& options, const Scene& scene,
+                                              std::vector<std::string>& warnings) {
+    if (!options.hdri.empty()) return read_environment(options);
+    Environment sky;
+    if (options.sky) {
+        sky.radiance = ImageRgb32f(1, 1, *options.sky);
+        return sky;
+    }
+    if (has_light(scene)) return std::nullopt;
+    warnings.push_back("the scene has no light of its own, so a neutral sky of radiance 1 lights it; --sky or --hdri choose another");
+    sky.radiance = ImageRgb32f(1, 1, Vec3(1));
+    return sky;
+}
+
+Camera choose_camera(const RenderOptions& options, const Scene& scene, const Bounds3& bounds) {
+    const float aspect = options.resolution ? static_cast<float>(options.resolution->x) / static_cast<float>(options.resolution->y)
+                                            : 16.0f / 9.0f;
+    Camera camera;
+    if (options.eye) {
+        camera.world_from_camera = look_at(*options.eye, *options.target, options.up.value_or(Vec3(0, 1, 0)));
+        camera.focus_distance_m = std::max(glm::length(*options.eye - *options.target), 1e-6f);
+    } else if (!options.camera.empty()) {
+        const CameraInstance* found = nullptr;
+        for (const CameraInstance& each : scene.cameras) {
+            if (each.name == options.camera) found = &each;
+        }
+        size_t index = 0;
+        const char* end = options.camera.data() + options.camera.size();
+        const auto parsed = std::from_chars(options.camera.data(), end, index);
+        if (found == nullptr && parsed.ec == std::errc() && parsed.ptr == end && index < scene.cameras.size()) {
+            found = &scene.cameras[index];
+        }
+        if (found == nullptr) {
+            throw usage(fmt::format("--camera {}: the scene has {} cameras and none of that name or index; candela info lists them",
+                                    options.camera, scene.cameras.size()));
+        }
+        camera = found->camera;
+    } else if (!scene.cameras.empty()) {
+        camera = scene.cameras.front().camera;
+    } else {
+        camera = frame_bounds(bounds, aspect);
+    }
+    if (options.fov_degrees) camera.yfov_radians = glm::radians(*options.fov_degrees);
+    if (options.aperture_m) camera.aperture_diameter_m = *options.aperture_m;
+    if (options.focus_m) camera.focus_distance_m = *options.focus_m;
+    return camera;
+}
+
+Vec2u choose_extent(const RenderOptions& options, const Camera& camera) {
+    if (options.resolution) return *options.resolution;
+    constexpr uint32_t height = 720;
+    const float aspect = camera.aspect > 0.0f ? camera.aspect : 16.0f / 9.0f;
+    return {static_cast<uint32_t>(std::clamp(std::lround(aspect * height), 1l, 8192l)), height};
+}
+
+}  // namespace
+
+std::filesystem::path default_scene() {
+    const std::filesystem::path name = "cornell_box.glb";
+    std::error_code error;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+    for (const std::filesystem::path& folder :
+         {std::filesystem::path(CANDELA_ASSETS_SOURCE), program.parent_path() / "../share/candela/assets"}) {
+        if (std::filesystem::exists(folder / name, error)) return folder / name;
+    }
+    throw CommandError(ExitStatus::unreadable_scene, "cornell_box.glb: the scene that ships with candela is not where it was installed; name a SCENE");
+}
+
+RenderJob prepare_render(const RenderOptions& options, const std::function<void(const char*, double)>& progress,
+                         const std::atomic<bool>* cancel) {
+    RenderJob job;
+    job.scene_path = options.scene.empty() ? default_scene().string() : options.scene;
+
+    // Load.
+    const Clock::time_point load_start = Clock::now();
+    Diagnostics diagnostics;
+    LoadOptions load;
+    load.scene = options.scene_index;
+    load.cancel = cancel;
+    load.progress = [&](float fraction, const char*) { progress("load", static_cast<double>(fraction)); };
+    std::shared_ptr<const Scene> scene;
+    try {
+        scene = std::make_shared<const Scene>(load_gltf(job.scene_path, diagnostics, load));
+    } catch (const LoadError& error) {
+        const bool stopped = cancel != nullptr && cancel->load();
+        throw CommandError(stopped ? ExitStatus::interrupted : ExitStatus::unreadable_scene, error.what());
+    }
+    for (const Diagnostic& warning : diagnostics.warnings()) {
+        job.warnings.push_back(warning.where.empty() ? warning.message : warning.where + ": " + warning.message);
+    }
+    job.load_seconds = seconds_since(load_start);
+
+    // Build.
+    const Clock::time_point build_start = Clock::now();
+    BuildOptions build;
+    build.environment = choose_environment(options, *scene, job.warnings);
+    build.cancel = cancel;
+    try {
+        job.world = build_world(scene, build);
+    } catch (const AccelError& error) {
+        const bool stopped = cancel != nullptr && cancel->load();
+        throw CommandError(stopped ? ExitStatus::interrupted : ExitStatus::internal_error,
+                           fmt::format("{}: {}", job.scene_path, error.what()));
+    }
+    job.warnings.insert(job.warnings.end(), job.world->warnings.begin(), job.world->warnings.end());
+    job.build_seconds = seconds_since(build_start);
+    progress("build", 1.0);
+
+    // What to render, and how long.
+    job.request.world = job.world;
+    job.request.view.camera = choose_camera(options, *scene, job.world->bounds);
+    job.request.view.extent = choose_extent(options, job.request.view.camera);
+    job.request.settings = options.integrator;
+    const bool limited = options.seconds || options.until_error_percent;
+    job.request.max_spp = options.spp.value_or(limited ? std::numeric_limits<uint32_t>::max() : 256u);
+    if (options.seconds) job.request.max_seconds = *options.seconds;
+    if (options.until_error_percent) job.request.until_relative_error = *options.until_error_percent / 100.0;
+    return job;
+}
+
+}  // namespace candela

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// The JSON record of a run that --stats writes.
+#pragma once
+
+#include "app/options.h"
+#include "app/render_job.h"
+
+namespace candela {
+
+struct RunRecord {
+    const RenderOptions* options = nullptr;
+    const RenderJob* job = nullptr;
+    SessionStatus status;
+    const Frame* frame = nullptr;
+    double write_seconds = 0;
+    double first_frame_seconds = 0;  // from the start of the program to the first frame
+};
+
+// Every key of the contract, one object, indented.
+std::string statistics_json(const RunRecord& record);
+
+}  // namespace candela
