@@ -58,8 +58,8 @@ struct AccelError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// Whether a transform may be that of an AccelInstance: finite, and with an inverse that single precision can hold. Other
-// geometry must be moved to world space.
+// Whether a transform may be that of an AccelInstance: finite, and with an inverse that single precision can hold.
+// Other geometry must be moved to world space.
 bool can_be_instanced(const Mat4& world_from_object) noexcept;
 
 class Accel {

@@ -196,7 +196,8 @@ void Accel::Impl::build(const AccelInput& input, const std::function<void(float)
     world_count = static_cast<uint32_t>(input.world_geometry.size());
     for (uint32_t i = 0; i < world_count; ++i) {
         world_surfaces.push_back(input.world_geometry[i].surface);
-        attach(device.get(), top.get(), i, input.world_geometry[i], with_opacity && input.world_geometry[i].has_opacity);
+        attach(device.get(), top.get(), i, input.world_geometry[i],
+               with_opacity && input.world_geometry[i].has_opacity);
     }
     double origin_limit = coordinate_limit;
     double direction_limit = coordinate_limit;
