@@ -53,12 +53,18 @@ template <bool normalized>
 void convert_any(ComponentType type, const std::byte* from, uint64_t stride, uint64_t count, const Shape& shape,
                  float* out) {
     switch (type) {
-        case ComponentType::i8: return convert<int8_t, normalized>(from, stride, count, shape, out);
-        case ComponentType::u8: return convert<uint8_t, normalized>(from, stride, count, shape, out);
-        case ComponentType::i16: return convert<int16_t, normalized>(from, stride, count, shape, out);
-        case ComponentType::u16: return convert<uint16_t, normalized>(from, stride, count, shape, out);
-        case ComponentType::u32: return convert<uint32_t, normalized>(from, stride, count, shape, out);
-        case ComponentType::f32: return convert<float, normalized>(from, stride, count, shape, out);
+        case ComponentType::i8:
+            return convert<int8_t, normalized>(from, stride, count, shape, out);
+        case ComponentType::u8:
+            return convert<uint8_t, normalized>(from, stride, count, shape, out);
+        case ComponentType::i16:
+            return convert<int16_t, normalized>(from, stride, count, shape, out);
+        case ComponentType::u16:
+            return convert<uint16_t, normalized>(from, stride, count, shape, out);
+        case ComponentType::u32:
+            return convert<uint32_t, normalized>(from, stride, count, shape, out);
+        case ComponentType::f32:
+            return convert<float, normalized>(from, stride, count, shape, out);
     }
 }
 
@@ -78,9 +84,12 @@ void convert_elements(const AccessorLayout& accessor, bool normalized, const std
 
 uint32_t load_index(ComponentType type, const std::byte* from) {
     switch (type) {
-        case ComponentType::u8: return load<uint8_t>(from);
-        case ComponentType::u16: return load<uint16_t>(from);
-        default: return load<uint32_t>(from);
+        case ComponentType::u8:
+            return load<uint8_t>(from);
+        case ComponentType::u16:
+            return load<uint16_t>(from);
+        default:
+            return load<uint32_t>(from);
     }
 }
 
@@ -179,9 +188,15 @@ std::vector<uint32_t> AccessorReader::read_indices(uint32_t index, const std::st
     if (accessor.view) {
         const std::byte* from = buffers_.view(*accessor.view).data() + accessor.byte_offset;
         switch (accessor.type) {
-            case ComponentType::u8: widen<uint8_t>(from, accessor.stride, accessor.count, indices.data()); break;
-            case ComponentType::u16: widen<uint16_t>(from, accessor.stride, accessor.count, indices.data()); break;
-            default: widen<uint32_t>(from, accessor.stride, accessor.count, indices.data()); break;
+            case ComponentType::u8:
+                widen<uint8_t>(from, accessor.stride, accessor.count, indices.data());
+                break;
+            case ComponentType::u16:
+                widen<uint16_t>(from, accessor.stride, accessor.count, indices.data());
+                break;
+            default:
+                widen<uint32_t>(from, accessor.stride, accessor.count, indices.data());
+                break;
         }
     }
     if (accessor.sparse) {

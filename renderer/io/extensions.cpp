@@ -74,7 +74,8 @@ std::vector<std::string> names_in(const Json& document, const char* list) {
 std::vector<ExtensionUse> treat_extensions(LoadContext& context, const Json& document) {
     std::vector<ExtensionUse> uses;
     const auto use_of = [&](const std::string& name) -> ExtensionUse* {
-        const auto found = std::find_if(uses.begin(), uses.end(), [&](const ExtensionUse& u) { return u.name == name; });
+        const auto found =
+            std::find_if(uses.begin(), uses.end(), [&](const ExtensionUse& u) { return u.name == name; });
         return found == uses.end() ? nullptr : &*found;
     };
     const auto add = [&](const std::string& name) -> ExtensionUse& {
@@ -98,8 +99,8 @@ std::vector<ExtensionUse> treat_extensions(LoadContext& context, const Json& doc
         use.required = true;
         const Known* entry = find_known(use.name);
         if (entry == nullptr || !entry->harmless_when_ignored) {
-            context.fail(pointer_to("/extensionsRequired", i), "the required extension " + use.name +
-                                                                   " is not supported; export the scene without it");
+            context.fail(pointer_to("/extensionsRequired", i),
+                         "the required extension " + use.name + " is not supported; export the scene without it");
         }
     }
     const std::vector<std::string> used = names_in(document, "extensionsUsed");

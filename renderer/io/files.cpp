@@ -27,7 +27,8 @@ int base64_digit(char c) {
 }
 
 std::vector<std::byte> decode_base64(std::string_view text) {
-    while (!text.empty() && text.back() == '=') text.remove_suffix(1);
+    while (!text.empty() && text.back() == '=')
+        text.remove_suffix(1);
     if (text.size() % 4 == 1) throw FileError("the base64 text of the data: URI is cut off");
     std::vector<std::byte> bytes;
     bytes.reserve(text.size() / 4 * 3 + 2);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/io/images.h"
 
-
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
@@ -41,7 +40,8 @@ std::vector<DecodedImage> decode_images(std::span<const std::span<const std::byt
         for (size_t i = next++; i < encoded.size(); i = next++) {
             decode_one(i);
             const size_t done = ++finished;
-            if (reports && options.progress) options.progress(static_cast<float>(done) / static_cast<float>(encoded.size()));
+            if (reports && options.progress)
+                options.progress(static_cast<float>(done) / static_cast<float>(encoded.size()));
         }
     };
     const int threads = options.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(options.threads);
@@ -49,7 +49,8 @@ std::vector<DecodedImage> decode_images(std::span<const std::span<const std::byt
     arena.execute([&] {
         tbb::task_group group;
         const int helpers = std::max(arena.max_concurrency() - 1, 0);
-        for (int k = 0; k < helpers; ++k) group.run([&] { work(false); });
+        for (int k = 0; k < helpers; ++k)
+            group.run([&] { work(false); });
         work(true);
         group.wait();
     });

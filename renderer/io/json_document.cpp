@@ -43,7 +43,8 @@ void check_nesting(LoadContext& context, std::string_view text) {
 
 Json parse_json(LoadContext& context, std::string_view text) {
     // GLB pads its JSON with spaces, some writers with zeros.
-    while (!text.empty() && text.back() == '\0') text.remove_suffix(1);
+    while (!text.empty() && text.back() == '\0')
+        text.remove_suffix(1);
     if (text.empty()) context.fail("", "the file holds no JSON");
     // A parsed value takes up to some thirty times the bytes of its text.
     constexpr uint64_t bytes_per_character = 32;

@@ -42,13 +42,20 @@ const Json& array(const Json& document, const char* name) {
 ComponentType component_type(LoadContext& context, const Json& object, const std::string& where) {
     const uint64_t code = integer(object, "componentType");
     switch (code) {
-        case 5120: return ComponentType::i8;
-        case 5121: return ComponentType::u8;
-        case 5122: return ComponentType::i16;
-        case 5123: return ComponentType::u16;
-        case 5125: return ComponentType::u32;
-        case 5126: return ComponentType::f32;
-        default: context.fail(where + "/componentType", std::to_string(code) + " is not a component type of glTF");
+        case 5120:
+            return ComponentType::i8;
+        case 5121:
+            return ComponentType::u8;
+        case 5122:
+            return ComponentType::i16;
+        case 5123:
+            return ComponentType::u16;
+        case 5125:
+            return ComponentType::u32;
+        case 5126:
+            return ComponentType::f32;
+        default:
+            context.fail(where + "/componentType", std::to_string(code) + " is not a component type of glTF");
     }
 }
 
@@ -131,9 +138,9 @@ void read_views(LoadContext& context, const Json& document, Layout& layout) {
         CompressedLayout compressed = read_compressed(context, *meshopt, place);
         const uint64_t source_bytes = layout.buffers[compressed.buffer].byte_length;
         if (!in_range(compressed.byte_offset, compressed.byte_length, source_bytes)) {
-            context.fail(place + "/byteLength", outside("compressed data", compressed.byte_offset,
-                                                        compressed.byte_length,
-                                                        pointer_to("/buffers", compressed.buffer), source_bytes));
+            context.fail(place + "/byteLength",
+                         outside("compressed data", compressed.byte_offset, compressed.byte_length,
+                                 pointer_to("/buffers", compressed.buffer), source_bytes));
         }
         if (compressed.count > view.byte_length / compressed.stride ||
             compressed.count * compressed.stride != view.byte_length) {

@@ -16,10 +16,13 @@ enum class ComponentType : uint8_t { i8, u8, i16, u16, u32, f32 };
 inline constexpr uint64_t component_bytes(ComponentType type) {
     switch (type) {
         case ComponentType::i8:
-        case ComponentType::u8: return 1;
+        case ComponentType::u8:
+            return 1;
         case ComponentType::i16:
-        case ComponentType::u16: return 2;
-        default: return 4;
+        case ComponentType::u16:
+            return 2;
+        default:
+            return 4;
     }
 }
 

@@ -50,7 +50,7 @@ std::string pointer_to(std::string_view base, uint64_t index, std::string_view m
     if constexpr (sizeof...(rest) == 0) {
         return head;
     } else {
-        return pointer_to(head, rest...);
+        return pointer_to(std::string_view(head), rest...);
     }
 }
 

@@ -29,9 +29,12 @@ constexpr double no_limit = 3e38;
 
 WrapMode MaterialLoader::wrap(int mode, size_t sampler, const char* member) const {
     switch (mode) {
-        case TINYGLTF_TEXTURE_WRAP_REPEAT: return WrapMode::repeat;
-        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE: return WrapMode::clamp_to_edge;
-        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT: return WrapMode::mirrored_repeat;
+        case TINYGLTF_TEXTURE_WRAP_REPEAT:
+            return WrapMode::repeat;
+        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+            return WrapMode::clamp_to_edge;
+        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+            return WrapMode::mirrored_repeat;
         default:
             context_.warn(pointer_to("/samplers", sampler, member), "is not a wrap mode of glTF; repeat is used");
             return WrapMode::repeat;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/io/meshes.h"
 
+#include "renderer/io/materials.h"
 #include "renderer/io/repair.h"
 #include "renderer/io/tangents.h"
 #include "renderer/io/tinygltf.h"
@@ -9,144 +10,202 @@
 namespace candela {
 namespace {
 
-class MeshLoader {
+class PrimitiveLoader {
   public:
-    MeshLoader(LoadContext& context, AccessorReader& accessors, Scene& scene)
-        : context_(context), accessors_(accessors), scene_(scene) {}
+    PrimitiveLoader(LoadContext& context, AccessorReader& accessors, Scene& scene, const tinygltf::Primitive& source,
+                    std::string where)
+        : context_(context), accessors_(accessors), scene_(scene), source_(source), where_(std::move(where)) {}
 
-    Mesh mesh(const tinygltf::Mesh& source, const std::string& where);
+    // Empty where there is nothing to show.
+    std::optional<Primitive> load();
 
   private:
-    bool primitive(const tinygltf::Primitive& source, const std::string& where, Primitive& out);
-    void read_attributes(const tinygltf::Primitive& source, const std::string& where, Primitive& out);
-    void read_triangles(const tinygltf::Primitive& source, PrimitiveMode mode, const std::string& where, Primitive& out);
-    void mend(const std::string& where, Primitive& out);
-    void find_tangents(const std::string& where, Primitive& out);
+    std::optional<uint32_t> attribute(const char* name) const;
+    std::string attribute_place(const char* name) const { return where_ + "/attributes/" + name; }
+    std::vector<Vec3u> load_triangles(PrimitiveMode mode, uint64_t vertex_count, uint32_t positions);
+    void load_attributes(Primitive& out, bool wants_tangents);
+    template <typename Element>
+    std::vector<Element> same_length(std::vector<Element> values, size_t vertex_count, const char* name) const;
+    void repair(Primitive& out);
+    void check_uv_sets(const Primitive& primitive);
 
     LoadContext& context_;
     AccessorReader& accessors_;
     Scene& scene_;
+    const tinygltf::Primitive& source_;
+    std::string where_;
 };
 
-void MeshLoader::read_attributes(const tinygltf::Primitive& source, const std::string& where, Primitive& out) {
-    const std::string place = where + "/attributes/";
-    out.positions = accessors_.read_vec3(static_cast<uint32_t>(source.attributes.at("POSITION")), place + "POSITION");
-    const auto with = [&](const char* name, auto&& read) {
-        const auto found = source.attributes.find(name);
-        if (found == source.attributes.end()) return;
-        const auto accessor = static_cast<uint32_t>(found->second);
-        if (accessors_.layout(accessor).count != out.positions.size()) {
-            context_.fail(place + name, "has " + std::to_string(accessors_.layout(accessor).count) +
-                                            " elements, but POSITION has " + std::to_string(out.positions.size()));
-        }
-        read(accessor, place + name);
-    };
-    with("NORMAL", [&](uint32_t a, const std::string& w) { out.normals = accessors_.read_vec3(a, w); });
-    with("TANGENT", [&](uint32_t a, const std::string& w) { out.tangents = accessors_.read_vec4(a, w); });
-    with("TEXCOORD_0", [&](uint32_t a, const std::string& w) { out.uv[0] = accessors_.read_vec2(a, w); });
-    with("TEXCOORD_1", [&](uint32_t a, const std::string& w) { out.uv[1] = accessors_.read_vec2(a, w); });
-    with("COLOR_0", [&](uint32_t a, const std::string& w) { out.colors = accessors_.read_colors(a, w); });
+uint64_t bytes_of(const Primitive& p) {
+    return p.positions.size() * sizeof(Vec3) + p.normals.size() * sizeof(Vec3) + p.tangents.size() * sizeof(Vec4) +
+           (p.uv[0].size() + p.uv[1].size()) * sizeof(Vec2) + p.colors.size() * sizeof(Vec4);
 }
 
-void MeshLoader::read_triangles(const tinygltf::Primitive& source, PrimitiveMode mode, const std::string& where,
-                                Primitive& out) {
-    const uint64_t vertices = out.positions.size();
-    if (source.indices < 0) {
-        context_.charge(triangle_count(mode, vertices), sizeof(Vec3u), where);
-        out.triangles = assemble_triangles(mode, static_cast<uint32_t>(vertices));
-        return;
+std::optional<uint32_t> PrimitiveLoader::attribute(const char* name) const {
+    const auto found = source_.attributes.find(name);
+    if (found == source_.attributes.end()) return std::nullopt;
+    return static_cast<uint32_t>(found->second);
+}
+
+std::vector<Vec3u> PrimitiveLoader::load_triangles(PrimitiveMode mode, uint64_t vertex_count, uint32_t positions) {
+    const std::string indices_place = where_ + "/indices";
+    std::vector<uint32_t> corners;
+    uint64_t corner_count = vertex_count;
+    if (source_.indices >= 0) {
+        corners = accessors_.read_indices(static_cast<uint32_t>(source_.indices), indices_place);
+        corner_count = corners.size();
+        // Any vertex index that passes here may be used unchecked from now on.
+        for (size_t i = 0; i < corners.size(); ++i) {
+            if (corners[i] < vertex_count) continue;
+            context_.fail(indices_place, "vertex index " + std::to_string(corners[i]) + " at element " +
+                                             std::to_string(i) + " is not below the " + std::to_string(vertex_count) +
+                                             " vertices of " + pointer_to("/accessors", positions));
+        }
     }
-    const auto accessor = static_cast<uint32_t>(source.indices);
-    const std::vector<uint32_t> corners = accessors_.read_indices(accessor, where + "/indices");
-    for (size_t i = 0; i < corners.size(); ++i) {
-        if (corners[i] < vertices) continue;
-        context_.fail(pointer_to("/accessors", accessor), "index " + std::to_string(corners[i]) + " at element " +
-                                                              std::to_string(i) + " is not below the vertex count of " +
-                                                              std::to_string(vertices));
+    const uint64_t count = triangle_count(mode, corner_count);
+    if (mode == PrimitiveMode::triangles && corner_count % 3 != 0) {
+        context_.warn(where_, "the number of corners is not a multiple of 3; the last are ignored");
     }
-    context_.charge(triangle_count(mode, corners.size()), sizeof(Vec3u), where);
-    out.triangles = assemble_triangles(mode, corners);
+    context_.charge(count, sizeof(Vec3u), where_);
+    std::vector<Vec3u> triangles = source_.indices >= 0 ? assemble_triangles(mode, corners)
+                                                        : assemble_triangles(mode, static_cast<uint32_t>(vertex_count));
     context_.release(corners.size() * sizeof(uint32_t));
+    return triangles;
 }
 
-// What the renderer relies on is made true here; what had to be mended is said.
-void MeshLoader::mend(const std::string& where, Primitive& out) {
+template <typename Element>
+std::vector<Element> PrimitiveLoader::same_length(std::vector<Element> values, size_t vertex_count,
+                                                  const char* name) const {
+    if (values.size() != vertex_count) {
+        context_.fail(attribute_place(name), "has " + std::to_string(values.size()) + " elements, but POSITION has " +
+                                                 std::to_string(vertex_count));
+    }
+    return values;
+}
+
+void PrimitiveLoader::load_attributes(Primitive& out, bool wants_tangents) {
+    const size_t count = out.positions.size();
+    if (const auto normals = attribute("NORMAL")) {
+        out.normals = same_length(accessors_.read_vec3(*normals, attribute_place("NORMAL")), count, "NORMAL");
+        // Without normals of its own a mesh gets flat ones, and its tangents are to be ignored (section 3.7.2.1).
+        const auto tangents = attribute("TANGENT");
+        if (wants_tangents && tangents) {
+            out.tangents = same_length(accessors_.read_vec4(*tangents, attribute_place("TANGENT")), count, "TANGENT");
+        }
+    }
+    out.flat_normals = out.normals.empty();
+    for (const auto& [set, name] : {std::pair{0, "TEXCOORD_0"}, std::pair{1, "TEXCOORD_1"}}) {
+        const auto uv = attribute(name);
+        if (uv) out.uv[set] = same_length(accessors_.read_vec2(*uv, attribute_place(name)), count, name);
+    }
+    if (const auto colors = attribute("COLOR_0")) {
+        out.colors = same_length(accessors_.read_colors(*colors, attribute_place("COLOR_0")), count, "COLOR_0");
+    }
+}
+
+void PrimitiveLoader::repair(Primitive& out) {
+    // Exporters let many primitives share one large set of vertices; each keeps only its own part.
+    const uint64_t bytes_before = bytes_of(out);
     drop_unused_vertices(out);
-    if (const size_t n = drop_unplaceable_triangles(out); n > 0) {
-        context_.warn(where, std::to_string(n) + " triangles have corners that are not finite and were left out");
+    context_.release(bytes_before - bytes_of(out));
+    if (drop_unplaceable_triangles(out) > 0) {
+        context_.warn(attribute_place("POSITION"),
+                      "holds values that are not finite or beyond 1e9; the triangles there are dropped");
     }
-    if (out.normals.empty()) {
-        // glTF 2.0, section 3.7.2.1: without normals the mesh is flat, and given tangents do not count.
-        out.flat_normals = true;
-        out.tangents.clear();
-    } else if (const size_t n = repair_normals(out); n > 0) {
-        context_.warn(where + "/attributes/NORMAL", std::to_string(n) + " normals have no direction and were replaced");
+    if (repair_normals(out) > 0) {
+        context_.warn(attribute_place("NORMAL"),
+                      "holds vectors without a direction; normals of the adjoining triangles are used there");
     }
-    if (const size_t n = repair_uv_and_colors(out); n > 0) {
-        context_.warn(where + "/attributes", std::to_string(n) + " values are not finite or negative and were replaced");
+    if (repair_tangents(out) > 0) {
+        context_.warn(attribute_place("TANGENT"), "holds vectors without a direction; arbitrary ones are used there");
     }
-}
-
-void MeshLoader::find_tangents(const std::string& where, Primitive& out) {
-    const Material* material = out.material.valid() ? &scene_.materials[out.material.value] : nullptr;
-    if (material == nullptr || !material->normal.valid()) {
-        out.tangents.clear();
-        return;
-    }
-    const uint32_t uv_set = material->normal.uv_set;
-    if (!out.tangents.empty()) {
-        if (const size_t n = repair_tangents(out); n > 0) {
-            context_.warn(where + "/attributes/TANGENT", std::to_string(n) + " tangents have no direction and were replaced");
-        }
-    } else if (out.uv[uv_set].empty()) {
-        context_.warn(where, "has a normal map but no texture coordinates for it");
-    } else {
-        generate_tangents(out, uv_set);
+    if (repair_uv_and_colors(out) > 0) {
+        context_.warn(where_ + "/attributes", "texture coordinates or colours that are not finite were replaced");
     }
 }
 
-bool MeshLoader::primitive(const tinygltf::Primitive& source, const std::string& where, Primitive& out) {
-    if (source.mode < 0 || source.mode > 6) {
-        context_.fail(where + "/mode", std::to_string(source.mode) + " is no primitive mode of glTF");
+void PrimitiveLoader::check_uv_sets(const Primitive& primitive) {
+    if (!primitive.material.valid()) return;
+    for (const TextureSlot& slot : texture_slots(scene_.materials[primitive.material.value])) {
+        if (!slot.ref->valid() || !primitive.uv[slot.ref->uv_set].empty()) continue;
+        context_.warn(where_, "has no TEXCOORD_" + std::to_string(slot.ref->uv_set) + " for its material's " +
+                                  slot.member + "; one texel is used throughout");
     }
-    const auto mode = static_cast<PrimitiveMode>(source.mode);
-    if (std::string_view(mode_name(mode)) != "triangles") {
-        context_.warn(where + "/mode", std::string(mode_name(mode)) + " are not drawn");
-        return false;
-    }
-    if (source.attributes.count("POSITION") == 0) {
-        context_.warn(where + "/attributes", "has no POSITION and is not drawn");
-        return false;
-    }
-    if (!source.targets.empty()) context_.warn(where + "/targets", "morph targets are not applied; the base shape is shown");
-    if (source.material >= 0) out.material = MaterialId{static_cast<uint32_t>(source.material)};
-    read_attributes(source, where, out);
-    read_triangles(source, mode, where, out);
-    mend(where, out);
-    find_tangents(where, out);
-    return !out.triangles.empty();
 }
 
-Mesh MeshLoader::mesh(const tinygltf::Mesh& source, const std::string& where) {
-    Mesh out;
-    out.name = source.name;
-    for (size_t i = 0; i < source.primitives.size(); ++i) {
-        context_.check_cancel();
-        Primitive made;
-        if (primitive(source.primitives[i], pointer_to(where + "/primitives", i), made)) {
-            out.primitives.push_back(std::move(made));
-        }
+std::optional<Primitive> PrimitiveLoader::load() {
+    if (source_.mode < 0 || source_.mode > 6) {
+        context_.fail(where_ + "/mode", std::to_string(source_.mode) + " is not a primitive mode of glTF");
     }
+    const auto mode = static_cast<PrimitiveMode>(source_.mode);
+    if (mode < PrimitiveMode::triangles) {
+        context_.warn(where_, std::string(mode_name(mode)) + " are not shown; only triangles are");
+        return std::nullopt;
+    }
+    const auto positions = attribute("POSITION");
+    if (!positions) {
+        context_.warn(where_, "has no POSITION and is not shown");
+        return std::nullopt;
+    }
+    if (accessors_.layout(*positions).count >= 0xffffffffu) {
+        context_.fail(pointer_to("/accessors", *positions, "count"), "more vertices than 32-bit indices can name");
+    }
+
+    Primitive out;
+    out.positions = accessors_.read_vec3(*positions, attribute_place("POSITION"));
+    out.triangles = load_triangles(mode, out.positions.size(), *positions);
+    if (source_.material >= 0) out.material = MaterialId{static_cast<uint32_t>(source_.material)};
+    const bool wants_tangents = out.material.valid() && scene_.materials[out.material.value].normal.valid();
+    load_attributes(out, wants_tangents);
+    repair(out);
+    if (out.triangles.empty()) {
+        context_.warn(where_, "has no triangle that can be shown");
+        return std::nullopt;
+    }
+    check_uv_sets(out);
     return out;
+}
+
+// Said once each, for they concern the whole picture.
+void warn_of_ignored_features(LoadContext& context, const tinygltf::Model& model) {
+    for (size_t m = 0; m < model.meshes.size(); ++m) {
+        for (size_t p = 0; p < model.meshes[m].primitives.size(); ++p) {
+            if (model.meshes[m].primitives[p].targets.empty()) continue;
+            context.warn(pointer_to("/meshes", m, "primitives", p, "targets"),
+                         "morph targets are ignored; the base shape is shown");
+            return;
+        }
+    }
 }
 
 }  // namespace
 
 void load_meshes(LoadContext& context, const tinygltf::Model& model, AccessorReader& accessors, Scene& scene) {
-    MeshLoader loader(context, accessors, scene);
-    for (size_t i = 0; i < model.meshes.size(); ++i) {
-        scene.meshes.push_back(loader.mesh(model.meshes[i], pointer_to("/meshes", i)));
-        context.progress(0.1f + 0.3f * static_cast<float>(i + 1) / static_cast<float>(model.meshes.size()), "meshes");
+    for (size_t m = 0; m < model.meshes.size(); ++m) {
+        const tinygltf::Mesh& source = model.meshes[m];
+        Mesh& mesh = scene.meshes.emplace_back();
+        mesh.name = source.name;
+        for (size_t p = 0; p < source.primitives.size(); ++p) {
+            context.check_cancel();
+            const std::string where = pointer_to("/meshes", m, "primitives", p);
+            PrimitiveLoader loader(context, accessors, scene, source.primitives[p], where);
+            if (std::optional<Primitive> primitive = loader.load()) mesh.primitives.push_back(std::move(*primitive));
+        }
+    }
+    warn_of_ignored_features(context, model);
+}
+
+void generate_missing_tangents(LoadContext& context, Scene& scene) {
+    for (size_t m = 0; m < scene.meshes.size(); ++m) {
+        for (Primitive& primitive : scene.meshes[m].primitives) {
+            if (!primitive.material.valid() || !primitive.tangents.empty()) continue;
+            const TextureRef& normal = scene.materials[primitive.material.value].normal;
+            if (!normal.valid() || primitive.uv[normal.uv_set].empty()) continue;
+            context.check_cancel();
+            // Vertices may be split, up to one per corner.
+            context.charge(primitive.triangles.size() * 3, sizeof(Vec4), pointer_to("/meshes", m));
+            generate_tangents(primitive, normal.uv_set);
+        }
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Triangles and vertex data of a file's meshes.
+// Meshes: each glTF primitive to triangles with vertex data that the renderer may rely on.
 #pragma once
 
 #include "renderer/io/accessors.h"
@@ -10,8 +10,12 @@ class Model;
 
 namespace candela {
 
-// Fills scene.meshes, one per mesh of the file. Points and lines, and primitives without positions, are left out with a
-// warning. Needs scene.materials. Vertex indices out of range and attributes of different lengths throw LoadError.
+// Fills scene.meshes, as many as the file has; what cannot be shown (points, lines, primitives without positions) is
+// left out with a warning. Needs scene.materials. Throws LoadError for indices out of range, attributes of the wrong
+// type or length.
 void load_meshes(LoadContext& context, const tinygltf::Model& model, AccessorReader& accessors, Scene& scene);
+
+// Tangents for the primitives whose material has a normal texture and that bring none.
+void generate_missing_tangents(LoadContext& context, Scene& scene);
 
 }  // namespace candela

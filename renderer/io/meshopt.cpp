@@ -20,7 +20,8 @@ void check_parameters(const MeshoptView& view) {
     } else {
         require(view.stride == 2 || view.stride == 4, "byteStride of TRIANGLES and INDICES must be 2 or 4");
         require(view.filter == MeshoptFilter::none, "TRIANGLES and INDICES take no filter");
-        require(view.mode != MeshoptMode::triangles || view.count % 3 == 0, "the count of TRIANGLES must be a multiple of 3");
+        require(view.mode != MeshoptMode::triangles || view.count % 3 == 0,
+                "the count of TRIANGLES must be a multiple of 3");
     }
     if (view.filter == MeshoptFilter::octahedral) {
         require(view.stride == 4 || view.stride == 8, "byteStride of the OCTAHEDRAL filter must be 4 or 8");

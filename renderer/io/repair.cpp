@@ -66,9 +66,8 @@ size_t drop_unplaceable_triangles(Primitive& primitive) {
     const std::vector<Vec3>& p = primitive.positions;
     if (std::all_of(p.begin(), p.end(), placeable)) return 0;
     const size_t before = primitive.triangles.size();
-    std::erase_if(primitive.triangles, [&](const Vec3u& t) {
-        return !placeable(p[t.x]) || !placeable(p[t.y]) || !placeable(p[t.z]);
-    });
+    std::erase_if(primitive.triangles,
+                  [&](const Vec3u& t) { return !placeable(p[t.x]) || !placeable(p[t.y]) || !placeable(p[t.z]); });
     for (Vec3& position : primitive.positions) {
         if (!placeable(position)) position = Vec3(0);
     }

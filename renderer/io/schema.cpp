@@ -215,14 +215,22 @@ constexpr Rule texture_info_rules[] = {
 
 const char* kind_name(Kind kind) {
     switch (kind) {
-        case Kind::object: return "an object";
-        case Kind::array: return "an array";
-        case Kind::string: return "a string";
-        case Kind::boolean: return "true or false";
-        case Kind::integer: return "an integer";
-        case Kind::number: return "a number";
-        case Kind::numbers: return "an array of numbers";
-        case Kind::index: return "an index";
+        case Kind::object:
+            return "an object";
+        case Kind::array:
+            return "an array";
+        case Kind::string:
+            return "a string";
+        case Kind::boolean:
+            return "true or false";
+        case Kind::integer:
+            return "an integer";
+        case Kind::number:
+            return "a number";
+        case Kind::numbers:
+            return "an array of numbers";
+        case Kind::index:
+            return "an index";
     }
     return "";
 }
@@ -312,14 +320,28 @@ class Validator {
         const Rule& rule = *rule_;
         bool matches = false;
         switch (rule.kind) {
-            case Kind::object: matches = value.is_object(); break;
-            case Kind::array: matches = value.is_array(); break;
-            case Kind::string: matches = value.is_string(); break;
-            case Kind::boolean: matches = value.is_boolean(); break;
+            case Kind::object:
+                matches = value.is_object();
+                break;
+            case Kind::array:
+                matches = value.is_array();
+                break;
+            case Kind::string:
+                matches = value.is_string();
+                break;
+            case Kind::boolean:
+                matches = value.is_boolean();
+                break;
             case Kind::integer:
-            case Kind::index: matches = as_integer(value); break;
-            case Kind::number: matches = value.is_number(); break;
-            case Kind::numbers: matches = value.is_array(); break;
+            case Kind::index:
+                matches = as_integer(value);
+                break;
+            case Kind::number:
+                matches = value.is_number();
+                break;
+            case Kind::numbers:
+                matches = value.is_array();
+                break;
         }
         if (!matches) context_.fail(pointer_, std::string("should be ") + kind_name(rule.kind));
         if (rule.kind == Kind::number) check_number(value, pointer_);

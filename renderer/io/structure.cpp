@@ -38,7 +38,8 @@ Json without_bytes(const Json& document) {
 }
 
 std::string one_line(std::string text) {
-    while (!text.empty() && text.back() == '\n') text.pop_back();
+    while (!text.empty() && text.back() == '\n')
+        text.pop_back();
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// After Mikkelsen 2008, "Simulation of Wrinkled Surfaces Revisited", section 6: tangents are shared by the corners of faces
-// that meet in a vertex across an edge and agree in handedness, weighted by the faces' angles there.
+// After Mikkelsen 2008, "Simulation of Wrinkled Surfaces Revisited", section 6: tangents are shared by the corners of
+// faces that meet in a vertex across an edge and agree in handedness, weighted by the faces' angles there.
 #include "renderer/io/tangents.h"
 
 #include <array>
@@ -15,7 +15,7 @@ namespace {
 
 // The tangent direction of one face and how its texture lies on it.
 struct Face {
-    Vec3 tangent{0};            // along +u, unit; 0 where uv has no extent
+    Vec3 tangent{0};                 // along +u, unit; 0 where uv has no extent
     bool keeps_orientation = false;  // uv turns the same way as the face
     bool any_orientation = true;     // no area in uv: joins whatever is beside it
 };
@@ -80,8 +80,9 @@ void TangentBuilder::make_faces() {
 }
 
 bool TangentBuilder::same_vertex(size_t a, size_t b) const {
-    return vertex(a) == vertex(b) ? !primitive_.normals.empty() || normal(a) == normal(b)
-                                  : position(a) == position(b) && normal(a) == normal(b) && uv_[vertex(a)] == uv_[vertex(b)];
+    return vertex(a) == vertex(b)
+               ? !primitive_.normals.empty() || normal(a) == normal(b)
+               : position(a) == position(b) && normal(a) == normal(b) && uv_[vertex(a)] == uv_[vertex(b)];
 }
 
 uint32_t TangentBuilder::hash_of(size_t corner) const {
@@ -103,7 +104,8 @@ void TangentBuilder::weld_corners() {
     std::vector<uint32_t> table(slots, empty);
     for (size_t corner = 0; corner < corners; ++corner) {
         size_t slot = hash_of(corner) & (slots - 1);
-        while (table[slot] != empty && !same_vertex(table[slot], corner)) slot = (slot + 1) & (slots - 1);
+        while (table[slot] != empty && !same_vertex(table[slot], corner))
+            slot = (slot + 1) & (slots - 1);
         if (table[slot] == empty) table[slot] = static_cast<uint32_t>(corner);
         welded_[corner] = table[slot];
     }

@@ -17,7 +17,8 @@ std::vector<Vec3u> assemble(PrimitiveMode mode, uint64_t corner_count, const Cor
                 // p_i = {v_{i+1}, v_{i+2}, v_0}
                 triangles[i] = {corner(i + 1), corner(i + 2), corner(0)};
                 break;
-            default: triangles[i] = {corner(3 * i), corner(3 * i + 1), corner(3 * i + 2)};
+            default:
+                triangles[i] = {corner(3 * i), corner(3 * i + 1), corner(3 * i + 2)};
         }
     }
     return triangles;
@@ -27,20 +28,26 @@ std::vector<Vec3u> assemble(PrimitiveMode mode, uint64_t corner_count, const Cor
 
 const char* mode_name(PrimitiveMode mode) {
     switch (mode) {
-        case PrimitiveMode::points: return "points";
+        case PrimitiveMode::points:
+            return "points";
         case PrimitiveMode::lines:
         case PrimitiveMode::line_loop:
-        case PrimitiveMode::line_strip: return "lines";
-        default: return "triangles";
+        case PrimitiveMode::line_strip:
+            return "lines";
+        default:
+            return "triangles";
     }
 }
 
 uint64_t triangle_count(PrimitiveMode mode, uint64_t corner_count) {
     switch (mode) {
-        case PrimitiveMode::triangles: return corner_count / 3;
+        case PrimitiveMode::triangles:
+            return corner_count / 3;
         case PrimitiveMode::triangle_strip:
-        case PrimitiveMode::triangle_fan: return corner_count < 3 ? 0 : corner_count - 2;
-        default: return 0;
+        case PrimitiveMode::triangle_fan:
+            return corner_count < 3 ? 0 : corner_count - 2;
+        default:
+            return 0;
     }
 }
 

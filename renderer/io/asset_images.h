@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// The encoded images of a file, found first and decoded last.
+#pragma once
+
+#include "renderer/io/buffers.h"
+
+namespace candela {
+
+class AssetImages {
+  public:
+    AssetImages(LoadContext& context, const Layout& layout, const AssetFiles& files, BufferStore& buffers)
+        : context_(context), layout_(layout), files_(files), buffers_(buffers) {}
+
+    // Names only; scene.images becomes as long as the file's.
+    void list(Scene& scene) const;
+
+    // Decodes what the materials read. An image that is missing or damaged becomes one white texel with a warning, and
+    // as a normal texture is left out.
+    void decode(Scene& scene);
+
+  private:
+    // Empty with a warning where the bytes cannot be had.
+    std::span<const std::byte> encoded(size_t index);
+
+    LoadContext& context_;
+    const Layout& layout_;
+    const AssetFiles& files_;
+    BufferStore& buffers_;
+    std::vector<std::vector<std::byte>> owned_;
+};
+
+}  // namespace candela
