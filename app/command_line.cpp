@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/command_line.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "app/commands.h"
 
@@ -18,9 +18,10 @@ CommandError usage(const std::string& line) {
 Vec2u parse_resolution(const std::string& text) {
     unsigned width = 0, height = 0;
     char rest = 0;
-    if (std::sscanf(text.c_str(), "%5ux%5u%c", &width, &height, &rest) != 2 || width == 0 || height == 0 || width > 65535 ||
-        height > 65535) {
-        throw usage("--resolution " + text + ": is not of the form WIDTHxHEIGHT with sides from 1 to 65535, as in 1280x720");
+    if (std::sscanf(text.c_str(), "%5ux%5u%c", &width, &height, &rest) != 2 || width == 0 || height == 0 ||
+        width > 65535 || height > 65535) {
+        throw usage("--resolution " + text +
+                    ": is not of the form WIDTHxHEIGHT with sides from 1 to 65535, as in 1280x720");
     }
     return {width, height};
 }
@@ -44,8 +45,10 @@ struct RawRenderOptions {
 void add_render_options(CLI::App& command, RenderOptions& options, RawRenderOptions& raw) {
     const std::map<std::string, Estimator> estimators{
         {"mis", Estimator::mis}, {"light", Estimator::light}, {"bsdf", Estimator::bsdf}};
-    const std::map<std::string, SamplerKind> samplers{{"sobol", SamplerKind::sobol}, {"independent", SamplerKind::independent}};
-    const std::map<std::string, PixelFilter> filters{{"blackman-harris", PixelFilter::blackman_harris}, {"box", PixelFilter::box}};
+    const std::map<std::string, SamplerKind> samplers{{"sobol", SamplerKind::sobol},
+                                                      {"independent", SamplerKind::independent}};
+    const std::map<std::string, PixelFilter> filters{{"blackman-harris", PixelFilter::blackman_harris},
+                                                     {"box", PixelFilter::box}};
     const std::map<std::string, ToneCurve> curves{{"linear", ToneCurve::linear},
                                                   {"neutral", ToneCurve::neutral},
                                                   {"aces", ToneCurve::aces},
@@ -56,31 +59,58 @@ void add_render_options(CLI::App& command, RenderOptions& options, RawRenderOpti
     command.add_option("--eye", raw.eye, "own camera: where it stands")->type_name("X,Y,Z");
     command.add_option("--target", raw.target, "own camera: what it looks at")->type_name("X,Y,Z");
     command.add_option("--up", raw.up, "own camera: what is up (0,1,0)")->type_name("X,Y,Z");
-    command.add_option("--fov", options.fov_degrees, "vertical field of view in degrees")->check(CLI::Range(0.1, 179.0))->type_name("DEG");
-    command.add_option("--aperture", options.aperture_m, "diameter of the lens in metres (0: pinhole)")->check(CLI::NonNegativeNumber)->type_name("M");
-    command.add_option("--focus", options.focus_m, "distance in focus in metres")->check(CLI::PositiveNumber)->type_name("M");
+    command.add_option("--fov", options.fov_degrees, "vertical field of view in degrees")
+        ->check(CLI::Range(0.1, 179.0))
+        ->type_name("DEG");
+    command.add_option("--aperture", options.aperture_m, "diameter of the lens in metres (0: pinhole)")
+        ->check(CLI::NonNegativeNumber)
+        ->type_name("M");
+    command.add_option("--focus", options.focus_m, "distance in focus in metres")
+        ->check(CLI::PositiveNumber)
+        ->type_name("M");
     command.add_option("--spp", options.spp, "samples per pixel")->check(CLI::Range(1u, 1u << 30))->type_name("N");
     command.add_option("--time", options.seconds, "seconds of rendering")->check(CLI::PositiveNumber)->type_name("S");
-    command.add_option("--until-error", options.until_error_percent, "estimated mean relative error in percent")->check(CLI::PositiveNumber)->type_name("P");
-    command.add_option("--max-depth", options.integrator.max_depth, "scattering events at most; 1 = direct light, 0 = no limit")->check(CLI::Range(0u, 1u << 20))->type_name("N");
-    command.add_option("--estimator", options.integrator.estimator, "mis, light or bsdf (mis)")->transform(CLI::CheckedTransformer(estimators));
-    command.add_option("--sampler", options.integrator.sampler, "sobol or independent (sobol)")->transform(CLI::CheckedTransformer(samplers));
-    command.add_option("--filter", options.integrator.filter, "blackman-harris or box (blackman-harris)")->transform(CLI::CheckedTransformer(filters));
-    command.add_option("--clamp-indirect", options.integrator.clamp_indirect, "firefly clamp; biased (off)")->check(CLI::NonNegativeNumber)->type_name("V");
+    command.add_option("--until-error", options.until_error_percent, "estimated mean relative error in percent")
+        ->check(CLI::PositiveNumber)
+        ->type_name("P");
+    command
+        .add_option("--max-depth", options.integrator.max_depth,
+                    "scattering events at most; 1 = direct light, 0 = no limit")
+        ->check(CLI::Range(0u, 1u << 20))
+        ->type_name("N");
+    command.add_option("--estimator", options.integrator.estimator, "mis, light or bsdf (mis)")
+        ->transform(CLI::CheckedTransformer(estimators));
+    command.add_option("--sampler", options.integrator.sampler, "sobol or independent (sobol)")
+        ->transform(CLI::CheckedTransformer(samplers));
+    command.add_option("--filter", options.integrator.filter, "blackman-harris or box (blackman-harris)")
+        ->transform(CLI::CheckedTransformer(filters));
+    command.add_option("--clamp-indirect", options.integrator.clamp_indirect, "firefly clamp; biased (off)")
+        ->check(CLI::NonNegativeNumber)
+        ->type_name("V");
     command.add_option("--seed", options.integrator.seed, "of all random numbers (0)")->type_name("N");
-    command.add_option("-t,--threads", options.threads, "worker threads (all cores)")->check(CLI::Range(0u, 1024u))->type_name("N");
+    command.add_option("-t,--threads", options.threads, "worker threads (all cores)")
+        ->check(CLI::Range(0u, 1024u))
+        ->type_name("N");
     command.add_option("--hdri", options.hdri, "environment, equirectangular .hdr or .exr")->type_name("FILE");
-    command.add_option("--hdri-rotation", options.hdri_rotation_degrees, "turns it counter-clockwise seen from +Y")->type_name("DEG");
-    command.add_option("--hdri-intensity", options.hdri_intensity, "scales it (1)")->check(CLI::NonNegativeNumber)->type_name("V");
+    command.add_option("--hdri-rotation", options.hdri_rotation_degrees, "turns it counter-clockwise seen from +Y")
+        ->type_name("DEG");
+    command.add_option("--hdri-intensity", options.hdri_intensity, "scales it (1)")
+        ->check(CLI::NonNegativeNumber)
+        ->type_name("V");
     command.add_option("--sky", raw.sky, "a constant environment of that radiance")->type_name("R,G,B");
-    command.add_option("--background", raw.background, "what camera rays that leave the scene see (env)")->type_name("env|R,G,B|transparent");
+    command.add_option("--background", raw.background, "what camera rays that leave the scene see (env)")
+        ->type_name("env|R,G,B|transparent");
     command.add_option("--exposure", options.tone.exposure_ev, "display only (0)")->type_name("EV");
-    command.add_option("--tonemap", options.tone.curve, "linear, neutral, aces or agx (neutral)")->transform(CLI::CheckedTransformer(curves));
+    command.add_option("--tonemap", options.tone.curve, "linear, neutral, aces or agx (neutral)")
+        ->transform(CLI::CheckedTransformer(curves));
     command.add_option("--scene", options.scene_index, "which scene of the file")->type_name("N");
     command.add_option("--variant", raw.variant, "which material variant")->type_name("NAME");
     command.add_option("--animation", raw.animation, "which animation")->type_name("NAME|INDEX");
     command.add_option("--at", raw.at_seconds, "at which time of the animation")->type_name("SECONDS");
-    command.add_option("--aov", raw.aov, "extra .exr layers: albedo,normal,depth,position,uv,material,instance,samples,variance")->type_name("LIST");
+    command
+        .add_option("--aov", raw.aov,
+                    "extra .exr layers: albedo,normal,depth,position,uv,material,instance,samples,variance")
+        ->type_name("LIST");
     command.add_option("--stats", options.stats_file, "JSON record of the run; - = standard output")->type_name("FILE");
     command.add_flag("--quiet", options.quiet, "no progress");
     command.add_flag("-v", options.verbose, "more detail");
@@ -97,7 +127,8 @@ void finish_render_options(const RawRenderOptions& raw, RenderOptions& options) 
     if (!raw.up.empty()) options.up = parse_vec3("--up", raw.up);
     if (!raw.sky.empty()) options.sky = parse_vec3("--sky", raw.sky);
     if (options.sky && !options.hdri.empty()) throw usage("--sky and --hdri exclude each other; give one of them");
-    if (options.target.has_value() != options.eye.has_value()) throw usage("--eye and --target belong together; give both");
+    if (options.target.has_value() != options.eye.has_value())
+        throw usage("--eye and --target belong together; give both");
     if (raw.background == "transparent") {
         options.integrator.background = BackgroundKind::transparent;
     } else if (!raw.background.empty() && raw.background != "env") {
@@ -105,12 +136,14 @@ void finish_render_options(const RawRenderOptions& raw, RenderOptions& options) 
         options.integrator.background_color = parse_vec3("--background", raw.background);
     }
     std::stringstream list(raw.aov);
-    for (std::string name; std::getline(list, name, ',');) options.aovs.push_back(name);
+    for (std::string name; std::getline(list, name, ',');)
+        options.aovs.push_back(name);
 }
 
 std::string joined(int argc, char** argv) {
     std::string out = "candela";
-    for (int i = 1; i < argc; ++i) out += std::string(" ") + argv[i];
+    for (int i = 1; i < argc; ++i)
+        out += std::string(" ") + argv[i];
     return out;
 }
 
@@ -123,7 +156,9 @@ ExitStatus dispatch(int argc, char** argv) {
     RawRenderOptions raw;
     CLI::App* render_command = app.add_subcommand("render", "render without a display");
     add_render_options(*render_command, render, raw);
-    render_command->add_option("-o,--output", render.output, "ends in .png, .exr or .hdr")->required()->type_name("OUT");
+    render_command->add_option("-o,--output", render.output, "ends in .png, .exr or .hdr")
+        ->required()
+        ->type_name("OUT");
 
     InfoOptions info;
     CLI::App* info_command = app.add_subcommand("info", "what the file holds and how each extension is treated");

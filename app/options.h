@@ -13,7 +13,7 @@ namespace candela {
 
 // Options that view, render and screenshot share.
 struct RenderOptions {
-    std::string scene;  // empty: the Cornell box
+    std::string scene;    // empty: the Cornell box
     std::string command;  // the whole command line, for the records
     std::optional<Vec2u> resolution;
     std::string camera;  // name or index

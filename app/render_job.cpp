@@ -29,10 +29,12 @@ Environment read_environment(const RenderOptions& options) {
     try {
         const ImageRgba32f image = read_linear(options.hdri);
         out.radiance = ImageRgb32f(image.width(), image.height());
-        for (size_t i = 0; i < image.size(); ++i) out.radiance.pixels()[i] = Vec3(image.pixels()[i]);
+        for (size_t i = 0; i < image.size(); ++i)
+            out.radiance.pixels()[i] = Vec3(image.pixels()[i]);
     } catch (const ImageError& error) {
-        throw CommandError(ExitStatus::unreadable_scene,
-                           fmt::format("{}: {}; give an equirectangular .hdr or .exr file", options.hdri, error.what()));
+        throw CommandError(
+            ExitStatus::unreadable_scene,
+            fmt::format("{}: {}; give an equirectangular .hdr or .exr file", options.hdri, error.what()));
     }
     out.rotation_radians = glm::radians(options.hdri_rotation_degrees);
     out.intensity = options.hdri_intensity;
@@ -58,14 +60,16 @@ std::optional<Environment> choose_environment(const RenderOptions& options, cons
         return sky;
     }
     if (has_light(scene)) return std::nullopt;
-    warnings.push_back("the scene has no light of its own, so a neutral sky of radiance 1 lights it; --sky or --hdri choose another");
+    warnings.push_back(
+        "the scene has no light of its own, so a neutral sky of radiance 1 lights it; --sky or --hdri choose another");
     sky.radiance = ImageRgb32f(1, 1, Vec3(1));
     return sky;
 }
 
 Camera choose_camera(const RenderOptions& options, const Scene& scene, const Bounds3& bounds) {
-    const float aspect = options.resolution ? static_cast<float>(options.resolution->x) / static_cast<float>(options.resolution->y)
-                                            : 16.0f / 9.0f;
+    const float aspect = options.resolution
+                             ? static_cast<float>(options.resolution->x) / static_cast<float>(options.resolution->y)
+                             : 16.0f / 9.0f;
     Camera camera;
     if (options.eye) {
         camera.world_from_camera = look_at(*options.eye, *options.target, options.up.value_or(Vec3(0, 1, 0)));
@@ -82,8 +86,9 @@ Camera choose_camera(const RenderOptions& options, const Scene& scene, const Bou
             found = &scene.cameras[index];
         }
         if (found == nullptr) {
-            throw usage(fmt::format("--camera {}: the scene has {} cameras and none of that name or index; candela info lists them",
-                                    options.camera, scene.cameras.size()));
+            throw usage(fmt::format(
+                "--camera {}: the scene has {} cameras and none of that name or index; candela info lists them",
+                options.camera, scene.cameras.size()));
         }
         camera = found->camera;
     } else if (!scene.cameras.empty()) {
@@ -114,7 +119,9 @@ std::filesystem::path default_scene() {
          {std::filesystem::path(CANDELA_ASSETS_SOURCE), program.parent_path() / "../share/candela/assets"}) {
         if (std::filesystem::exists(folder / name, error)) return folder / name;
     }
-    throw CommandError(ExitStatus::unreadable_scene, "cornell_box.glb: the scene that ships with candela is not where it was installed; name a SCENE");
+    throw CommandError(
+        ExitStatus::unreadable_scene,
+        "cornell_box.glb: the scene that ships with candela is not where it was installed; name a SCENE");
 }
 
 RenderJob prepare_render(const RenderOptions& options, const std::function<void(const char*, double)>& progress,

@@ -30,7 +30,8 @@ std::string statistics_json(const RunRecord& record) {
     out["resolution"] = {request.view.extent.x, request.view.extent.y};
     out["spp"] = record.status.spp;
     out["seed"] = request.settings.seed;
-    out["threads"] = record.options->threads != 0 ? record.options->threads : std::max(1u, std::thread::hardware_concurrency());
+    out["threads"] =
+        record.options->threads != 0 ? record.options->threads : std::max(1u, std::thread::hardware_concurrency());
     out["triangles"] = request.world->triangle_count;
     out["instances"] = request.world->scene->instances.size();
     out["lights"] = lights.punctual.size() + lights.triangles.size() + (lights.environment ? 1 : 0);
@@ -40,7 +41,9 @@ std::string statistics_json(const RunRecord& record) {
                       {"write", record.write_seconds},
                       {"first_frame", record.first_frame_seconds}};
     out["samples"] = film.total_samples;
-    out["rays"] = {{"camera", record.status.rays.camera}, {"bounce", record.status.rays.bounce}, {"shadow", record.status.rays.shadow}};
+    out["rays"] = {{"camera", record.status.rays.camera},
+                   {"bounce", record.status.rays.bounce},
+                   {"shadow", record.status.rays.shadow}};
     // JSON has no NaN: an unknown error is null.
     if (std::isfinite(film.relative_error)) {
         out["relative_error"] = film.relative_error;

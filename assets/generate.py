@@ -179,7 +179,7 @@ def cornell_box():
     white = g.material("white", (0.73, 0.73, 0.73), lambert=True)
     red = g.material("red", (0.65, 0.05, 0.05), lambert=True)
     green = g.material("green", (0.12, 0.45, 0.15), lambert=True)
-    lamp = g.material("lamp", (0, 0, 0), lambert=True, emission=(17, 12, 4))
+    lamp = g.material("lamp", (0, 0, 0), lambert=True, emission=(40, 34, 26))
     g.quad("floor", white, (-1, 0, 1), (2, 0, 0), (0, 0, -2))
     g.quad("ceiling", white, (-1, 2, -1), (2, 0, 0), (0, 0, 2))
     g.quad("back wall", white, (-1, 0, -1), (2, 0, 0), (0, 2, 0))

@@ -48,8 +48,8 @@ ExitStatus run_compare(const CompareOptions& options) {
     const ImageRgba32f a = read_picture(options.a), b = read_picture(options.b);
     if (a.width() != b.width() || a.height() != b.height()) {
         throw CommandError(ExitStatus::wrong_usage,
-                           fmt::format("{} has {}x{} pixels and {} has {}x{}; render them in one size", options.a, a.width(), a.height(),
-                                       options.b, b.width(), b.height()));
+                           fmt::format("{} has {}x{} pixels and {} has {}x{}; render them in one size", options.a,
+                                       a.width(), a.height(), options.b, b.width(), b.height()));
     }
     const ImageDifference d = compare_images(a, b);
     if (!options.output.empty()) write_difference(options.output, a, b);
@@ -58,8 +58,10 @@ ExitStatus run_compare(const CompareOptions& options) {
                                          {"flip", d.flip}, {"signed_mean", d.signed_mean}, {"max", d.max_abs}};
         fmt::print("{}\n", out.dump(2));
     } else {
-        fmt::print("RMSE         {:.6g}\nrelMSE       {:.6g}\nMAE          {:.6g}\nFLIP         {:.6g}\nsigned mean  {:.6g}\nmax          {:.6g}\n",
-                   d.rmse, d.rel_mse, d.mae, d.flip, d.signed_mean, d.max_abs);
+        fmt::print(
+            "RMSE         {:.6g}\nrelMSE       {:.6g}\nMAE          {:.6g}\nFLIP         {:.6g}\nsigned mean  "
+            "{:.6g}\nmax          {:.6g}\n",
+            d.rmse, d.rel_mse, d.mae, d.flip, d.signed_mean, d.max_abs);
     }
     bool passed = true;
     const auto check = [&](const char* name, double value, const std::optional<double>& limit) {

@@ -31,9 +31,9 @@ uint64_t vertex_bytes(const Scene& scene) {
     uint64_t bytes = 0;
     for (const Mesh& mesh : scene.meshes) {
         for (const Primitive& p : mesh.primitives) {
-            bytes += p.positions.size() * sizeof(Vec3) + p.normals.size() * sizeof(Vec3) + p.tangents.size() * sizeof(Vec4) +
-                     (p.uv[0].size() + p.uv[1].size()) * sizeof(Vec2) + p.colors.size() * sizeof(Vec4) +
-                     p.triangles.size() * sizeof(Vec3u);
+            bytes += p.positions.size() * sizeof(Vec3) + p.normals.size() * sizeof(Vec3) +
+                     p.tangents.size() * sizeof(Vec4) + (p.uv[0].size() + p.uv[1].size()) * sizeof(Vec2) +
+                     p.colors.size() * sizeof(Vec4) + p.triangles.size() * sizeof(Vec3u);
         }
     }
     return bytes;
@@ -44,17 +44,22 @@ OrderedJson describe(const Scene& scene, const Diagnostics& diagnostics) {
     out["scene"] = scene.source;
     out["scenes"] = scene.scene_names;
     out["active_scene"] = scene.active_scene;
-    out["counts"] = {{"nodes", scene.nodes.size()},         {"meshes", scene.meshes.size()},
-                     {"materials", scene.materials.size()}, {"textures", scene.textures.size()},
-                     {"images", scene.images.size()},       {"instances", scene.instances.size()},
-                     {"cameras", scene.cameras.size()},     {"lights", scene.light_instances.size()},
+    out["counts"] = {{"nodes", scene.nodes.size()},
+                     {"meshes", scene.meshes.size()},
+                     {"materials", scene.materials.size()},
+                     {"textures", scene.textures.size()},
+                     {"images", scene.images.size()},
+                     {"instances", scene.instances.size()},
+                     {"cameras", scene.cameras.size()},
+                     {"lights", scene.light_instances.size()},
                      {"animations", scene.animation_names.size()}};
     out["triangles"] = unique_triangle_count(scene);
     out["placed_triangles"] = instanced_triangle_count(scene);
     out["vertex_bytes"] = vertex_bytes(scene);
     const Bounds3 bounds = bounds_of(scene);
     if (!bounds.empty()) {
-        out["bounds"] = {{bounds.lower.x, bounds.lower.y, bounds.lower.z}, {bounds.upper.x, bounds.upper.y, bounds.upper.z}};
+        out["bounds"] = {{bounds.lower.x, bounds.lower.y, bounds.lower.z},
+                         {bounds.upper.x, bounds.upper.y, bounds.upper.z}};
     }
     out["cameras"] = OrderedJson::array();
     for (const CameraInstance& camera : scene.cameras) {
@@ -81,11 +86,12 @@ void print_tree(const Scene& scene, NodeId id, int depth) {
     std::string holds;
     if (node.mesh.valid()) {
         const Mesh& mesh = scene.meshes[node.mesh.value];
-        holds = fmt::format("  mesh {} ({} primitives)", mesh.name.empty() ? std::to_string(node.mesh.value) : mesh.name,
-                            mesh.primitives.size());
+        holds = fmt::format("  mesh {} ({} primitives)",
+                            mesh.name.empty() ? std::to_string(node.mesh.value) : mesh.name, mesh.primitives.size());
     }
     fmt::print("  {}{}{}\n", std::string(static_cast<size_t>(2 * depth), ' '), name, holds);
-    for (const NodeId child : node.children) print_tree(scene, child, depth + 1);
+    for (const NodeId child : node.children)
+        print_tree(scene, child, depth + 1);
 }
 
 void print_text(const OrderedJson& facts, const Scene& scene) {
@@ -93,14 +99,16 @@ void print_text(const OrderedJson& facts, const Scene& scene) {
     for (const auto& [name, count] : facts["counts"].items()) {
         if (count != 0) fmt::print("  {:<12} {}\n", name, count.get<uint64_t>());
     }
-    fmt::print("  {:<12} {} ({} as placed)\n", "triangles", facts["triangles"].get<uint64_t>(), facts["placed_triangles"].get<uint64_t>());
+    fmt::print("  {:<12} {} ({} as placed)\n", "triangles", facts["triangles"].get<uint64_t>(),
+               facts["placed_triangles"].get<uint64_t>());
     fmt::print("  {:<12} {:.1f} MB\n", "vertex data", facts["vertex_bytes"].get<double>() * 1e-6);
     const Bounds3 bounds = bounds_of(scene);
     if (!bounds.empty()) {
-        fmt::print("  {:<12} {:.4g},{:.4g},{:.4g} to {:.4g},{:.4g},{:.4g} m\n", "bounds", bounds.lower.x, bounds.lower.y, bounds.lower.z,
-                   bounds.upper.x, bounds.upper.y, bounds.upper.z);
+        fmt::print("  {:<12} {:.4g},{:.4g},{:.4g} to {:.4g},{:.4g},{:.4g} m\n", "bounds", bounds.lower.x,
+                   bounds.lower.y, bounds.lower.z, bounds.upper.x, bounds.upper.y, bounds.upper.z);
     }
-    for (size_t i = 0; i < scene.cameras.size(); ++i) fmt::print("  camera {}     {}\n", i, scene.cameras[i].name);
+    for (size_t i = 0; i < scene.cameras.size(); ++i)
+        fmt::print("  camera {}     {}\n", i, scene.cameras[i].name);
     if (!scene.extensions.empty()) fmt::print("extensions\n");
     for (const ExtensionUse& use : scene.extensions) {
         fmt::print("  {}: {}{}{}\n", use.name, word_for(use.treatment), use.how.empty() ? "" : " (" + use.how + ")",

@@ -23,7 +23,8 @@ using Clock = std::chrono::steady_clock;
 
 std::string extension_of(const std::string& path) {
     std::string extension = std::filesystem::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
     return extension;
 }
 
@@ -36,7 +37,8 @@ void check_output(const std::string& path) {
     }
     const std::string where = folder.empty() ? "." : folder.string();
     if (!std::filesystem::is_directory(where, error)) {
-        throw CommandError(ExitStatus::unwritable_output, path + ": the folder " + where + " does not exist; make it first");
+        throw CommandError(ExitStatus::unwritable_output,
+                           path + ": the folder " + where + " does not exist; make it first");
     }
     if (access(where.c_str(), W_OK) != 0) {
         throw CommandError(ExitStatus::unwritable_output, path + ": the folder " + where + " cannot be written to");
@@ -51,11 +53,13 @@ void check_options(const RenderOptions& options) {
     if (!options.aovs.empty() && extension != ".exr") {
         throw CommandError(ExitStatus::wrong_usage, options.output + ": --aov needs an .exr output");
     }
-    constexpr std::string_view known[] = {"albedo", "normal", "depth", "position", "uv", "material", "instance", "samples", "variance"};
+    constexpr std::string_view known[] = {"albedo",   "normal",   "depth",   "position", "uv",
+                                          "material", "instance", "samples", "variance"};
     for (const std::string& name : options.aovs) {
         if (std::find(std::begin(known), std::end(known), name) == std::end(known)) {
-            throw CommandError(ExitStatus::wrong_usage,
-                               "--aov " + name + ": is none of albedo,normal,depth,position,uv,material,instance,samples,variance");
+            throw CommandError(
+                ExitStatus::wrong_usage,
+                "--aov " + name + ": is none of albedo,normal,depth,position,uv,material,instance,samples,variance");
         }
     }
     check_output(options.output);
@@ -76,7 +80,8 @@ std::vector<ExrLayer> make_layers(const RenderOptions& options, const RenderRequ
     std::vector<ExrLayer> layers;
     for (const std::string& name : options.aovs) {
         const auto found = channels.find(name);
-        layers.push_back(make_layer(name, found != channels.end() ? found->second : std::vector<std::string>{"V"}, extent));
+        layers.push_back(
+            make_layer(name, found != channels.end() ? found->second : std::vector<std::string>{"V"}, extent));
     }
     const std::vector<float> error = standard_error_map(film);
     for (uint32_t y = 0; y < extent.y; ++y) {
@@ -107,10 +112,11 @@ std::vector<ExrLayer> make_layers(const RenderOptions& options, const RenderRequ
 
 std::string describe_camera(const Camera& camera) {
     const Mat4& m = camera.world_from_camera;
-    return fmt::format("eye {},{},{} forward {},{},{} up {},{},{} {}", m[3].x, m[3].y, m[3].z, -m[2].x, -m[2].y, -m[2].z, m[1].x,
-                       m[1].y, m[1].z,
-                       camera.projection == Projection::perspective ? fmt::format("yfov {} degrees", glm::degrees(camera.yfov_radians))
-                                                                    : fmt::format("height {} m", 2 * camera.ortho_half_height_m));
+    return fmt::format("eye {},{},{} forward {},{},{} up {},{},{} {}", m[3].x, m[3].y, m[3].z, -m[2].x, -m[2].y,
+                       -m[2].z, m[1].x, m[1].y, m[1].z,
+                       camera.projection == Projection::perspective
+                           ? fmt::format("yfov {} degrees", glm::degrees(camera.yfov_radians))
+                           : fmt::format("height {} m", 2 * camera.ortho_half_height_m));
 }
 
 void write_picture(const RenderOptions& options, const RenderJob& job, const Frame& frame, RenderSession& session) {
@@ -131,7 +137,8 @@ void write_picture(const RenderOptions& options, const RenderJob& job, const Fra
             write_exr(options.output, frame.image, with_alpha, header, layers);
         }
     } catch (const ImageError& error) {
-        throw CommandError(ExitStatus::unwritable_output, options.output + ": " + error.what() + "; nothing was written");
+        throw CommandError(ExitStatus::unwritable_output,
+                           options.output + ": " + error.what() + "; nothing was written");
     }
 }
 
@@ -157,7 +164,8 @@ std::string clock_text(double seconds) {
 // The nearest of the limits, as a fraction of the way there.
 double fraction_done(const RenderRequest& request, const SessionStatus& status) {
     double fraction = 0;
-    if (request.max_spp < std::numeric_limits<uint32_t>::max()) fraction = static_cast<double>(status.spp) / request.max_spp;
+    if (request.max_spp < std::numeric_limits<uint32_t>::max())
+        fraction = static_cast<double>(status.spp) / request.max_spp;
     if (std::isfinite(request.max_seconds)) fraction = std::max(fraction, status.render_seconds / request.max_seconds);
     return fraction;
 }
@@ -173,7 +181,8 @@ ExitStatus run_render(const RenderOptions& options) {
         options, [&](const char* step, double fraction) { bar.show(step, fraction); }, InterruptGuard::flag());
     bar.clear();
     if (!options.quiet) {
-        for (const std::string& warning : job.warnings) fmt::print(stderr, "candela: warning: {}\n", warning);
+        for (const std::string& warning : job.warnings)
+            fmt::print(stderr, "candela: warning: {}\n", warning);
     }
 
     SessionOptions session_options;
@@ -193,23 +202,27 @@ ExitStatus run_render(const RenderOptions& options) {
     }
     bar.clear();
     const SessionStatus status = session.status();
-    if (!status.error.empty()) throw CommandError(ExitStatus::internal_error, status.error + "; ask for a smaller --resolution");
+    if (!status.error.empty())
+        throw CommandError(ExitStatus::internal_error, status.error + "; ask for a smaller --resolution");
     const Frame& frame = *session.latest();
 
     const Clock::time_point write_start = Clock::now();
     write_picture(options, job, frame, session);
     const double write_seconds = std::chrono::duration<double>(Clock::now() - write_start).count();
     if (!options.stats_file.empty()) {
-        write_statistics(options, {&options, &job, status, &frame, write_seconds, before_render + status.render_seconds});
+        write_statistics(options,
+                         {&options, &job, status, &frame, write_seconds, before_render + status.render_seconds});
     }
     if (frame.statistics.non_finite > 0) {
-        fmt::print(stderr, "candela: warning: {} samples were not finite and do not count\n", frame.statistics.non_finite);
+        fmt::print(stderr, "candela: warning: {} samples were not finite and do not count\n",
+                   frame.statistics.non_finite);
     }
     if (!options.quiet && options.stats_file != "-") {
-        fmt::print("{}: {}x{}, {:.4g} spp in {:.2f} s, estimated error {}{}\n", options.output, frame.image.width(), frame.image.height(),
-                   frame.statistics.mean_samples, status.render_seconds,
-                   std::isfinite(frame.statistics.relative_error) ? fmt::format("{:.2f} %", 100 * frame.statistics.relative_error)
-                                                                  : "unknown",
+        fmt::print("{}: {}x{}, {:.4g} spp in {:.2f} s, estimated error {}{}\n", options.output, frame.image.width(),
+                   frame.image.height(), frame.statistics.mean_samples, status.render_seconds,
+                   std::isfinite(frame.statistics.relative_error)
+                       ? fmt::format("{:.2f} %", 100 * frame.statistics.relative_error)
+                       : "unknown",
                    job.request.settings.biased() ? ", biased" : "");
     }
     return InterruptGuard::interrupted() ? ExitStatus::interrupted : ExitStatus::done;

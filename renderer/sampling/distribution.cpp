@@ -8,7 +8,8 @@ AliasTable::AliasTable(std::span<const float> weights) {
     entries_.resize(n);
     if (n == 0) return;
     double total = 0;
-    for (const float w : weights) total += static_cast<double>(w);
+    for (const float w : weights)
+        total += static_cast<double>(w);
 
     // Scale weights to a mean of 1, and sort cells into those that lack and those that have too much (Vose 1991).
     std::vector<double> scaled(n);
@@ -37,8 +38,7 @@ AliasTable::AliasTable(std::span<const float> weights) {
     for (const uint32_t i : small) {
         if (entries_[i].probability > 0.0f) continue;
         entries_[i].threshold = 0.0f;
-        entries_[i].alias = static_cast<uint32_t>(
-            std::max_element(weights.begin(), weights.end()) - weights.begin());
+        entries_[i].alias = static_cast<uint32_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
     }
 }
 
@@ -66,7 +66,8 @@ namespace {
 double make_cdf(std::span<const double> weights, float* cdf) {
     const size_t n = weights.size();
     double total = 0;
-    for (const double w : weights) total += w;
+    for (const double w : weights)
+        total += w;
     double sum = 0;
     cdf[0] = 0.0f;
     for (size_t i = 0; i < n; ++i) {
@@ -102,7 +103,8 @@ Distribution2D::Distribution2D(std::span<const float> weights, int width, int he
     std::vector<double> row_totals(static_cast<size_t>(height));
     for (int y = 0; y < height; ++y) {
         const size_t first = static_cast<size_t>(y) * static_cast<size_t>(width);
-        for (size_t x = 0; x < row.size(); ++x) row[x] = static_cast<double>(weights[first + x]);
+        for (size_t x = 0; x < row.size(); ++x)
+            row[x] = static_cast<double>(weights[first + x]);
         row_totals[static_cast<size_t>(y)] = make_cdf(row, &cell_cdf_[first + static_cast<size_t>(y)]);
     }
     make_cdf(row_totals, row_cdf_.data());

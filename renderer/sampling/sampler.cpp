@@ -15,8 +15,8 @@ constexpr uint32_t reverse_bits(uint32_t x) {
     return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
 }
 
-// A hash in which every bit depends on itself and lower bits only; on bit-reversed numbers it is a nested uniform (Owen)
-// scramble. Laine and Karras 2011, constants of Vegdahl 2021.
+// A hash in which every bit depends on itself and lower bits only; on bit-reversed numbers it is a nested uniform
+// (Owen) scramble. Laine and Karras 2011, constants of Vegdahl 2021.
 constexpr uint32_t laine_karras(uint32_t x, uint32_t seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
@@ -58,7 +58,8 @@ Vec2 Sampler::next_2d() {
         const uint32_t a = hash_combine(seed, index_);
         return {unit_float(a), unit_float(hash_u32(a ^ 0x9e3779b9u))};
     }
-    // Each pair of dimensions sees the sequence in an order of its own (Burley 2020, section 5), so that pairs are independent.
+    // Each pair of dimensions sees the sequence in an order of its own (Burley 2020, section 5), so that pairs are
+    // independent.
     const uint32_t shuffled = owen_scramble(index_, seed);
     return {unit_float(owen_scramble(reverse_bits(shuffled), hash_u32(seed ^ 0xe6fe3bebu))),
             unit_float(owen_scramble(sobol_second(shuffled), hash_u32(seed ^ 0x2d15a2a7u)))};

@@ -38,8 +38,8 @@ Vec2 sample_triangle(const Vec2& u) noexcept {
 
 namespace {
 
-// The 4-term Blackman-Harris window on [-1, 1], scaled to integrate to 1 (Harris 1978, minimum 4-term): only the constant
-// term survives the integral.
+// The 4-term Blackman-Harris window on [-1, 1], scaled to integrate to 1 (Harris 1978, minimum 4-term): only the
+// constant term survives the integral.
 constexpr double a0 = 0.35875, a1 = 0.48829, a2 = 0.14128, a3 = 0.01168;
 constexpr double pi_d = 3.14159265358979323846;
 

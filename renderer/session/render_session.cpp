@@ -175,8 +175,8 @@ void RenderSession::Impl::trace_slice() {
             list_tile(slice.pass, request.view.extent, tile, tally.samples);
             // The first coarse pass is finished whatever happens, so that dragging always shows pictures.
             const std::atomic<uint64_t>* cancel = first ? nullptr : &work_token;
-            if (!options.trace(*request.world, request.view, request.settings, tally.samples, tally.radiance, tally.rays,
-                               cancel, token)) {
+            if (!options.trace(*request.world, request.view, request.settings, tally.samples, tally.radiance,
+                               tally.rays, cancel, token)) {
                 return;
             }
             for (size_t i = 0; i < tally.samples.size(); ++i) {
@@ -283,7 +283,9 @@ void RenderSession::Impl::control_loop() {
                 snapshots_made = snapshots_asked;
                 reported.notify_all();
             }
-            const auto idle = [&] { return !mailbox && !quit && snapshots_made == snapshots_asked && !stop_asked && (!active || paused); };
+            const auto idle = [&] {
+                return !mailbox && !quit && snapshots_made == snapshots_asked && !stop_asked && (!active || paused);
+            };
             wake.wait(lock, [&] { return !idle(); });
             if (quit) return;
             if (snapshots_made != snapshots_asked) continue;

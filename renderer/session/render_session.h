@@ -44,7 +44,7 @@ struct SessionOptions {
     unsigned threads = 0;  // workers; 0: one per core
     // The longest a young picture goes without a new frame, in seconds; grows as the picture settles.
     double frame_seconds = 1.0 / 30.0;
-    bool publish_frames = true;  // false: only the last frame is resolved (headless)
+    bool publish_frames = true;          // false: only the last frame is resolved (headless)
     TraceFunction trace = &trace_batch;  // tests put their own here
 };
 
@@ -55,9 +55,8 @@ class RenderSession {
     RenderSession(const RenderSession&) = delete;
     RenderSession& operator=(const RenderSession&) = delete;
 
-    // Replaces what is rendered; returns its epoch. Never blocks on the workers. Throws std::invalid_argument without a world
-    // or for an extent outside 1..65535. Old worlds are released on the
-    // caller's or the control thread.
+    // Replaces what is rendered; returns its epoch. Never blocks on the workers. Throws std::invalid_argument without a
+    // world or for an extent outside 1..65535. Old worlds are released on the caller's or the control thread.
     uint64_t submit(RenderRequest request);
     // The newest complete frame, or null before the first. Never blocks; the pointer stays valid until the next call.
     // One reader thread.

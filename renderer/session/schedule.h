@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What to trace next: pure logic, without threads or clocks. Sample 0 comes in lattices of halving stride, each leaving out the
-// points of the one before, so that a coarse picture appears early and nothing is traced twice; then whole passes follow.
+// What to trace next: pure logic, without threads or clocks. Sample 0 comes in lattices of halving stride, each leaving
+// out the points of the one before, so that a coarse picture appears early and nothing is traced twice; then whole
+// passes follow.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,8 @@ namespace candela {
 // One sample for the pixels of a lattice. Tiles hold at most max_batch lattice points.
 struct Pass {
     uint32_t sample_index = 0;
-    uint32_t stride = 1;          // pixels whose coordinates are multiples of this
-    uint32_t done_stride = 0;     // except multiples of this, which an earlier pass had; 0: none had
+    uint32_t stride = 1;       // pixels whose coordinates are multiples of this
+    uint32_t done_stride = 0;  // except multiples of this, which an earlier pass had; 0: none had
 };
 
 inline constexpr uint32_t tile_side = 16;  // lattice points
@@ -37,8 +38,8 @@ class Schedule {
     // first_stride: 8 or 16.
     Schedule(Vec2u extent, uint32_t first_stride);
 
-    // The next slice of about that many tiles (at least one), never beyond its pass. The first pass comes whole: nothing is
-    // shown before it.
+    // The next slice of about that many tiles (at least one), never beyond its pass. The first pass comes whole:
+    // nothing is shown before it.
     Slice next(uint32_t tiles);
     // Passes of one sample for every pixel that are complete: the spp.
     uint32_t complete_samples() const { return complete_; }
@@ -54,8 +55,8 @@ class Schedule {
     bool first_pass_done_ = false;
 };
 
-// The coarsest stride that promises a first picture in time: 8, or 16 where a path is expected to take so long that the pass
-// of stride 8 would exceed target_seconds. seconds_per_path of all workers together; 0: unknown.
+// The coarsest stride that promises a first picture in time: 8, or 16 where a path is expected to take so long that the
+// pass of stride 8 would exceed target_seconds. seconds_per_path of all workers together; 0: unknown.
 uint32_t choose_first_stride(Vec2u extent, double seconds_per_path, double target_seconds);
 
 }  // namespace candela

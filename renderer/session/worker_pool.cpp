@@ -5,14 +5,16 @@ namespace candela {
 
 WorkerPool::WorkerPool(unsigned threads) {
     threads_.reserve(threads);
-    for (unsigned i = 0; i < threads; ++i) threads_.emplace_back([this, i] { loop(i); });
+    for (unsigned i = 0; i < threads; ++i)
+        threads_.emplace_back([this, i] { loop(i); });
 }
 
 WorkerPool::~WorkerPool() {
     quit_.store(true);
     job_.fetch_add(1);
     job_.notify_all();
-    for (std::thread& thread : threads_) thread.join();
+    for (std::thread& thread : threads_)
+        thread.join();
 }
 
 void WorkerPool::run(const std::function<void(unsigned)>& work) {
@@ -20,7 +22,8 @@ void WorkerPool::run(const std::function<void(unsigned)>& work) {
     busy_.store(size());
     job_.fetch_add(1);
     job_.notify_all();
-    for (uint32_t busy = busy_.load(); busy != 0; busy = busy_.load()) busy_.wait(busy);
+    for (uint32_t busy = busy_.load(); busy != 0; busy = busy_.load())
+        busy_.wait(busy);
 }
 
 void WorkerPool::loop(unsigned worker) {

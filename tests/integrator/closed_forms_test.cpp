@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The path tracer against exact answers: every case with each estimator and sampler, by both drivers, within four standard
-// errors of batch means, at a standard error small enough to mean something.
+// The path tracer against exact answers: every case with each estimator and sampler, by both drivers, within four
+// standard errors of batch means, at a standard error small enough to mean something.
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "renderer/integrator/integrator.h"
@@ -88,7 +88,8 @@ TEST(ClosedForms, StripLightOverLambertianPlane) {
         // From below the strip, past its edge.
         const View view = look_at_point(Vec3(p + 0.2f, 0.5f, 0.3f), Vec3(p, 0, 0), Vec3(0, 1, 0));
         for (const Technique& technique : all_techniques) {
-            expect_exact(measure(*world, view, technique, p > 2.0f ? 192 : 32, 8192), exact, 1e-3, "p=" + std::to_string(p) + " " + describe(technique));
+            expect_exact(measure(*world, view, technique, p > 2.0f ? 192 : 32, 8192), exact, 1e-3,
+                         "p=" + std::to_string(p) + " " + describe(technique));
         }
     }
 }
@@ -121,7 +122,8 @@ TEST(ClosedForms, IntegratingSphereConvergesToTheGeometricSeries) {
         const auto world = test::build(std::move(scene));
         const View view = look_at_point(Vec3(0.1f, 0.2f, 0), Vec3(0.7f, 0.5f, 0.3f), Vec3(0, 1, 0));
         for (const Technique& technique : all_techniques) {
-            // Smooth normals on flat facets lose the sliver of directions between the two horizons: under 1e-3 of the light.
+            // Smooth normals on flat facets lose the sliver of directions between the two horizons: under 1e-3 of the
+            // light.
             const test::BatchMeans means = measure(*world, view, technique, 16, 4096);
             const double exact = 1.0 / (1.0 - static_cast<double>(albedo));
             EXPECT_NEAR(means.mean(), exact, 4 * means.standard_error() + 2e-3 * exact) << describe(technique);

@@ -24,8 +24,9 @@ std::shared_ptr<const World> busy_world() {
     const MaterialId metal_id{static_cast<uint32_t>(scene.materials.size() - 1)};
     test::add_object(scene, test::make_sphere(Vec3(0), 0.6f, 32, 16), metal_id,
                      glm::translate(Mat4(1), Vec3(-0.8f, 0.6f, 0)));
-    scene.instances.push_back({scene.instances.back().mesh, scene.instances.back().node,
-                               glm::translate(Mat4(1), Vec3(0.9f, 0.6f, 0.3f)) * glm::scale(Mat4(1), Vec3(0.8f, -1, 1))});
+    scene.instances.push_back(
+        {scene.instances.back().mesh, scene.instances.back().node,
+         glm::translate(Mat4(1), Vec3(0.9f, 0.6f, 0.3f)) * glm::scale(Mat4(1), Vec3(0.8f, -1, 1))});
     const MaterialId card = test::add_lambert(scene, Vec3(0.2f, 0.9f, 0.3f));
     scene.materials[card.value].alpha_mode = AlphaMode::blend;
     scene.materials[card.value].base_color_factor.a = 0.5f;

@@ -91,13 +91,15 @@ TEST(RenderSession, PausingChangesNothing) {
 TEST(RenderSession, StopKeepsWhatThereIs) {
     RenderSession session({.threads = 2, .publish_frames = false});
     session.submit(request_from(0, 1u << 30));
-    while (session.status().spp < 2) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    while (session.status().spp < 2)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
     session.stop();
     const Frame frame = finished(session);
     EXPECT_GE(frame.statistics.mean_samples, 2.0);
     const Film film = session.snapshot_film();
     uint64_t samples = 0;
-    for (const FilmPixel& pixel : film.pixels()) samples += pixel.count;
+    for (const FilmPixel& pixel : film.pixels())
+        samples += pixel.count;
     EXPECT_EQ(samples, frame.statistics.total_samples);
 }
 

@@ -19,11 +19,13 @@ TEST(Schedule, LatticesCoverEveryPixelOnceThenPassesFollow) {
                 for (uint32_t tile = slice.first_tile; tile < slice.end_tile; ++tile) {
                     list_tile(slice.pass, extent, tile, samples);
                     ASSERT_LE(samples.size(), max_batch);
-                    for (const PixelSample& s : samples) seen[{s.x, s.y}].push_back(s.index);
+                    for (const PixelSample& s : samples)
+                        seen[{s.x, s.y}].push_back(s.index);
                 }
             }
             ASSERT_EQ(seen.size(), size_t{extent.x} * extent.y);
-            for (const auto& [pixel, indices] : seen) ASSERT_EQ(indices, (std::vector<uint32_t>{0, 1, 2}));
+            for (const auto& [pixel, indices] : seen)
+                ASSERT_EQ(indices, (std::vector<uint32_t>{0, 1, 2}));
         }
     }
 }

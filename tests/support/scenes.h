@@ -14,7 +14,8 @@ MaterialId add_lambert(Scene& scene, const Vec3& albedo);
 // Lambertian and emitting radiance from its front.
 MaterialId add_emitter(Scene& scene, const Vec3& radiance, const Vec3& albedo = Vec3(0), bool double_sided = false);
 
-// The parallelogram origin, origin + a, origin + a + b, origin + b; its front is where a × b points. uv runs along a and b.
+// The parallelogram origin, origin + a, origin + a + b, origin + b; its front is where a × b points. uv runs along a
+// and b.
 Primitive make_quad(const Vec3& origin, const Vec3& a, const Vec3& b);
 // A sphere of longitude × latitude quads with smooth normals pointing out, or in.
 Primitive make_sphere(const Vec3& center, float radius, int longitudes, int latitudes, bool inside_out = false);

@@ -49,7 +49,8 @@ TEST(BuildWorld, SharedAndSinglePlacementGiveTheSameSurface) {
     ASSERT_FALSE(shared->surfaces[0].positions_in_world);
     for (int i = 0; i < 200; ++i) {
         const float angle = 0.0314f * static_cast<float>(i);
-        const Vec3 target = Vec3(placed[3]) + 0.3f * Vec3(std::cos(7 * angle), std::sin(5 * angle), std::cos(3 * angle));
+        const Vec3 target =
+            Vec3(placed[3]) + 0.3f * Vec3(std::cos(7 * angle), std::sin(5 * angle), std::cos(3 * angle));
         const Vec3 eye = Vec3(placed[3]) + 6.0f * Vec3(std::cos(angle), std::sin(2 * angle), std::sin(angle));
         const Vec3 direction = glm::normalize(target - eye);
         const Hit a = shoot(*single, eye, direction);

@@ -48,8 +48,12 @@ TEST(SurfacePoint, NormalMapTiltsAlongUAndAgainstV) {
 
     // Mirrored in x: the picture is mirrored with the quad, and so is its relief.
     const Mat4 mirror = glm::scale(Mat4(1), Vec3(-1, 1, 1));
-    EXPECT_LT(glm::length(MappedQuad(texel(s, 0, s), mirror).look(Vec3(-0.4f, 0.6f, 0), into).shading.normal - Vec3(-s, 0, s)), 0.01f);
-    EXPECT_LT(glm::length(MappedQuad(texel(0, s, s), mirror).look(Vec3(-0.4f, 0.6f, 0), into).shading.normal - Vec3(0, s, s)), 0.01f);
+    EXPECT_LT(glm::length(MappedQuad(texel(s, 0, s), mirror).look(Vec3(-0.4f, 0.6f, 0), into).shading.normal -
+                          Vec3(-s, 0, s)),
+              0.01f);
+    EXPECT_LT(
+        glm::length(MappedQuad(texel(0, s, s), mirror).look(Vec3(-0.4f, 0.6f, 0), into).shading.normal - Vec3(0, s, s)),
+        0.01f);
 }
 
 TEST(SurfacePoint, ShadingNormalNeverFacesAway) {

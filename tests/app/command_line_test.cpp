@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// The contract of the command line, tried on the program itself.
+#include <sys/wait.h>
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "renderer/image/codec.h"
+
+namespace candela {
+namespace {
+
+struct Outcome {
+    int status = -1;
+    std::string text;  // standard output and error together
+};
+
+Outcome run(const std::string& arguments) {
+    Outcome out;
+    FILE* pipe = popen((std::string(CANDELA_PROGRAM) + " " + arguments + " 2>&1 </dev/null").c_str(), "r");
+    std::array<char, 4096> buffer{};
+    while (const size_t n = fread(buffer.data(), 1, buffer.size(), pipe))
+        out.text.append(buffer.data(), n);
+    const int status = pclose(pipe);
+    out.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return out;
+}
+
+class CommandLine : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        folder_ = std::filesystem::temp_directory_path() /
+                  ("candela cli " + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+        std::filesystem::remove_all(folder_);
+        std::filesystem::create_directories(folder_);
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+    std::string file(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
+    std::filesystem::path folder_;
+};
+
+const std::string tiny = " --resolution 24x16 --spp 4 --quiet ";
+
+TEST_F(CommandLine, RendersEveryFormatAndRecordsTheRun) {
+    for (const char* name : {"a.png", "a.exr", "a.hdr"}) {
+        const Outcome outcome = run("render -o " + file(name) + tiny);
+        EXPECT_EQ(outcome.status, 0) << outcome.text;
+        EXPECT_TRUE(std::filesystem::exists(folder_ / name));
+    }
+    const Outcome stats = run("render -o " + file("b.exr") + tiny +
+                              "--stats - --aov albedo,normal,depth,position,uv,material,instance,samples,variance");
+    EXPECT_EQ(stats.status, 0) << stats.text;
+    for (const char* key :
+         {"candela",     "scene",   "resolution",     "spp",          "seed",     "threads", "triangles",
+          "instances",   "lights",  "seconds",        "load",         "build",    "render",  "write",
+          "first_frame", "samples", "rays",           "camera",       "bounce",   "shadow",  "relative_error",
+          "non_finite",  "biased",  "peak_rss_bytes", "image_sha256", "warnings", "command"}) {
+        EXPECT_NE(stats.text.find("\"" + std::string(key) + "\":"), std::string::npos) << key;
+    }
+    EXPECT_NE(stats.text.find("\"non_finite\": 0"), std::string::npos);
+}
+
+TEST_F(CommandLine, ThePictureDoesNotDependOnThreads) {
+    run("render -o " + file("a.exr") + tiny + "-t 1");
+    run("render -o " + file("b.exr") + tiny + "-t 3");
+    EXPECT_EQ(read_linear(folder_ / "a.exr").pixels(), read_linear(folder_ / "b.exr").pixels());
+    const Outcome compared = run("compare --max-rmse 0 " + file("a.exr") + " " + file("b.exr"));
+    EXPECT_EQ(compared.status, 0) << compared.text;
+}
+
+TEST_F(CommandLine, WrongUsageIsTwo) {
+    for (const std::string& arguments :
+         {std::string("frobnicate"), std::string("render"), "render -o " + file("a.bmp"),
+          "render -o " + file("a.png") + " --spp x", "render -o " + file("a.png") + " --resolution 0x10",
+          "render -o " + file("a.png") + " --eye 1,2", "render -o " + file("a.png") + " --camera nobody",
+          "render -o " + file("a.png") + " --variant red", "render -o " + file("a.exr") + " --aov colour"}) {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.status, 2) << arguments << "\n" << outcome.text;
+        EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
+    }
+    EXPECT_EQ(run("--help").status, 0);
+    EXPECT_NE(run("--version").text.find("candela "), std::string::npos);
+}
+
+TEST_F(CommandLine, UnreadableScenesAreThree) {
+    std::ofstream(folder_ / "broken.gltf") << "{\"asset\":";
+    for (const std::string& scene : {file("missing.gltf"), file("broken.gltf"), file(".")}) {
+        const Outcome outcome = run("render " + scene + " -o " + file("a.png"));
+        EXPECT_EQ(outcome.status, 3) << outcome.text;
+        EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
+        EXPECT_EQ(run("info " + scene).status, 3);
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "a.png"));
+}
+
+TEST_F(CommandLine, UnwritableOutputIsFour) {
+    EXPECT_EQ(run("render -o " + file("no/such/a.png") + tiny).status, 4);
+    EXPECT_EQ(run("render -o /proc/a.png" + tiny).status, 4);
+}
+
+TEST_F(CommandLine, InterruptSavesWhatThereIs) {
+    const Outcome outcome =
+        run("render -o " + file("a.png") +
+            " --resolution 64x48 --spp 1000000000 --quiet & pid=$!; sleep 1; kill -INT $pid; wait $pid");
+    EXPECT_EQ(outcome.status, 130) << outcome.text;
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "a.png"));
+}
+
+TEST_F(CommandLine, CompareFailsAboveItsLimit) {
+    run("render -o " + file("a.png") + tiny);
+    run("render -o " + file("b.png") + tiny + "--exposure 1");
+    EXPECT_EQ(run("compare --max-mae 0.0001 " + file("a.png") + " " + file("b.png")).status, 1);
+    EXPECT_EQ(run("compare --json " + file("a.png") + " " + file("a.png")).status, 0);
+}
+
+}  // namespace
+}  // namespace candela

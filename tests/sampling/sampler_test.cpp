@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/sampling/sampler.h"
+#include "tests/support/chi_squared.h"
+
+namespace candela {
+namespace {
+
+TEST(Sampler, EachPairOfEachReplicateIsAZeroTwoNet) {
+    // Every elementary interval of area 1/64 holds one of the first 64 points of a replicate.
+    for (uint32_t replicate = 0; replicate < replicate_count; ++replicate) {
+        for (uint32_t dimension = 0; dimension < 20; dimension += 2) {
+            for (uint32_t split = 0; split <= 6; ++split) {
+                std::vector<int> cells(64, 0);
+                for (uint32_t i = 0; i < 64; ++i) {
+                    Sampler sampler(SamplerKind::sobol, Vec2u(5, 9), i * replicate_count + replicate, 3);
+                    sampler.start_dimension(dimension);
+                    const Vec2 u = sampler.next_2d();
+                    const auto x = static_cast<uint32_t>(u.x * static_cast<float>(1u << split));
+                    const auto y = static_cast<uint32_t>(u.y * static_cast<float>(64u >> split));
+                    ++cells[y * (1u << split) + x];
+                }
+                for (const int count : cells)
+                    ASSERT_EQ(count, 1) << "dimension " << dimension << " split " << split;
+            }
+        }
+    }
+}
+
+TEST(Sampler, IsAPureFunctionAndStaysBelowOne) {
+    for (const SamplerKind kind : {SamplerKind::sobol, SamplerKind::independent}) {
+        for (uint32_t i = 0; i < 10000; ++i) {
+            Sampler a(kind, Vec2u(i % 7, i / 7), i, 1), b(kind, Vec2u(i % 7, i / 7), i, 1);
+            const Vec2 u = a.next_2d();
+            ASSERT_EQ(u, b.next_2d());
+            ASSERT_TRUE(u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1);
+        }
+    }
+}
+
+TEST(Sampler, PixelsAndReplicatesAreUncorrelated) {
+    for (const SamplerKind kind : {SamplerKind::sobol, SamplerKind::independent}) {
+        constexpr int n = 20000;
+        double neighbours = 0, replicates = 0;
+        for (uint32_t i = 0; i < n; ++i) {
+            const auto centred = [&](Vec2u pixel, uint32_t index) {
+                return static_cast<double>(Sampler(kind, pixel, index, 0).next_2d().x) - 0.5;
+            };
+            neighbours += 12 * centred({i, 4}, 6) * centred({i + 1, 4}, 6);
+            replicates += 12 * centred({i, 8}, 2) * centred({i, 8}, 3);
+        }
+        // Each mean of n products has a standard deviation of 1/sqrt(n).
+        EXPECT_LT(std::abs(neighbours / n), 4 / std::sqrt(n));
+        EXPECT_LT(std::abs(replicates / n), 4 / std::sqrt(n));
+    }
+}
+
+}  // namespace
+}  // namespace candela
