@@ -30,9 +30,9 @@ const float cosines[] = {0.05f, 0.3f, 0.7f, 1.0f};
 
 TEST(MetallicRoughness, SamplesFollowThePdf) {
     Random random;
-    constexpr int rings = 12, sectors = 24, count = 100000, fine = 12;
+    constexpr int rings = 12, sectors = 24, count = 100000, fine = 48;
     for (const float metallic : {0.0f, 0.5f, 1.0f}) {
-        for (const float roughness : roughnesses) {
+        for (const float roughness : {0.3f, 0.6f, 1.0f}) {
             for (const float cosine : cosines) {
                 const Bsdf bsdf = make_bsdf(Vec3(0.5f), metallic, roughness, 1.5f, 1, Vec3(1));
                 const Vec3 wo = direction(cosine);
@@ -49,7 +49,7 @@ TEST(MetallicRoughness, SamplesFollowThePdf) {
                     ++drawn;
                     counts[cell_of(s.wi)] += 1;
                 }
-                // The pdf integrated over each cell by the midpoint rule; narrow peaks are left to the other tests.
+                // The pdf integrated over each cell by the midpoint rule, fine enough for the grazing peak.
                 double total = 0;
                 for (int r = 0; r < rings * fine; ++r) {
                     for (int c = 0; c < sectors * fine; ++c) {
@@ -62,7 +62,6 @@ TEST(MetallicRoughness, SamplesFollowThePdf) {
                         total += mass;
                     }
                 }
-                if (roughness < 0.25f) continue;
                 EXPECT_NEAR(total, static_cast<double>(drawn) / count, 0.01);
                 EXPECT_LT(test::chi_squared_score(counts, expected), 4.5)
                     << "metallic " << metallic << " roughness " << roughness << " cosine " << cosine;
