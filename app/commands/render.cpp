@@ -156,7 +156,7 @@ void write_statistics(const RenderOptions& options, const RunRecord& record) {
 }
 
 std::string clock_text(double seconds) {
-    const auto whole = static_cast<int64_t>(seconds + 0.5);
+    const int64_t whole = std::llround(seconds);
     return whole < 3600 ? fmt::format("{}:{:02}", whole / 60, whole % 60)
                         : fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }

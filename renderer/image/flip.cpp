@@ -100,7 +100,7 @@ Plane filter_by_sensitivity(const Plane& in) {
     Plane out(in.width(), in.height(), Vec3(0));
     Vec3 total(0);
     for (int term = 0; term < 2; ++term) {
-        std::vector<Vec3> kernel(static_cast<size_t>(2 * radius + 1));
+        std::vector<Vec3> kernel(2 * static_cast<size_t>(radius) + 1);
         Vec3 amplitude(0);
         for (int c = 0; c < 3; ++c) {
             const float a = term == 0 ? channels[c].a1 : channels[c].a2;

@@ -127,6 +127,7 @@ std::vector<Element> AccessorReader::read_floats(uint32_t index, uint32_t rows, 
         context_.fail(where, pointer_to("/accessors", index) + " is not of type " + type);
     }
     static_assert(sizeof(Element) % sizeof(float) == 0);
+    // NOLINTNEXTLINE(bugprone-sizeof-expression): Element may be float itself.
     constexpr uint64_t floats_each = sizeof(Element) / sizeof(float);
     const bool normalized = accessor.normalized || always_normalized;
     context_.charge(accessor.count, sizeof(Element), pointer_to("/accessors", index, "count"));

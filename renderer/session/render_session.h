@@ -18,8 +18,8 @@ struct RenderRequest {
     std::shared_ptr<const World> world;
     View view;
     IntegratorSettings settings;
-    uint32_t max_spp = std::numeric_limits<uint32_t>::max();  // the session idles when every pixel has this many
-    double max_seconds = infinity;                            // of rendering
+    uint32_t max_spp = std::numeric_limits<uint32_t>::max();       // the session idles when every pixel has this many
+    double max_seconds = std::numeric_limits<double>::infinity();  // of rendering
     double until_relative_error = 0;  // 0: off; looked at when spp is a power of two or every 16
 };
 
@@ -65,7 +65,7 @@ class RenderSession {
     void resume();
     SessionStatus status() const;
     // Blocks until the current epoch is done (or timeout_s passed); true when done.
-    bool wait_until_done(double timeout_s = infinity);
+    bool wait_until_done(double timeout_s = std::numeric_limits<double>::infinity());
     // A copy of the film at a quiescent point between slices (blocks for at most a slice).
     Film snapshot_film();
     // Ends the current epoch as it is: workers finish their batches, a last frame is published, done becomes true.
