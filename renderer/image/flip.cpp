@@ -66,7 +66,7 @@ Plane convolve(const Plane& in, const std::vector<Vec3>& kernel, bool along_x) {
             for (int k = -radius; k <= radius; ++k) {
                 const int u = along_x ? std::clamp(x + k, 0, in.width() - 1) : x;
                 const int v = along_x ? y : std::clamp(y + k, 0, in.height() - 1);
-                sum += kernel[static_cast<size_t>(k + radius)] * in(u, v);
+                sum += kernel.begin()[k + radius] * in(u, v);
             }
             out(x, y) = sum;
         }
