@@ -103,6 +103,8 @@ class GltfTest : public ::testing::Test {
     void TearDown() override { std::filesystem::remove_all(folder_); }
 
     std::filesystem::path write(const std::string& name, const std::string& text) const {
+        // A new file each time: overwriting one makes some file systems wait for the disk.
+        std::filesystem::remove(folder_ / name);
         std::ofstream(folder_ / name, std::ios::binary) << text;
         return folder_ / name;
     }

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+// Files made to hurt: every value of a document replaced by something nasty, every byte region of a container damaged.
+// Whatever loads must keep what the renderer relies on; what does not must end in LoadError.
+#include <random>
+
+#include "tests/io/document.h"
+
+namespace candela {
+namespace {
+
+using namespace test;
+
+// One document that uses most of what the loader reads.
+Document everything() {
+    Document document = Document::triangle();
+    Json& json = document.json;
+    const int normals = document.add_accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", f32);
+    const int uv = document.add_accessor<uint8_t>({0, 0, 255, 0, 0, 255}, "VEC2", u8, {{"normalized", true}});
+    const int color = document.add_accessor<uint16_t>({0, 0, 0, 1, 1, 1, 2, 2, 2}, "VEC3", u16);
+    const std::vector<uint16_t> where = {1};
+    const std::vector<float> values = {2, 0, 0};
+    json["accessors"][0]["sparse"] = {
+        {"count", 1},
+        {"indices", {{"bufferView", document.add_view(where.data(), 2)}, {"componentType", u16}}},
+        {"values", {{"bufferView", document.add_view(values.data(), 12)}}}};
+    Json& primitive = json["meshes"][0]["primitives"][0];
+    primitive["attributes"].update({{"NORMAL", normals}, {"TEXCOORD_0", uv}, {"COLOR_0", color}});
+    primitive["material"] = 0;
+    primitive["mode"] = 5;
+    primitive["targets"] = {{{"POSITION", 0}}};
+    json["images"] = {{{"uri", "data:image/png;base64,AAAA"}, {"name", "n"}}, {{"bufferView", 0}}};
+    json["samplers"] = {{{"magFilter", 9728}, {"wrapS", 33071}, {"wrapT", 33648}}};
+    json["textures"] = {{{"source", 0}, {"sampler", 0}},
+                        {{"source", 0}, {"extensions", {{"EXT_texture_webp", {{"source", 1}}}}}}};
+    const Json transform = {
+        {"KHR_texture_transform", {{"offset", {1, 2}}, {"rotation", 1}, {"scale", {1, 2}}, {"texCoord", 0}}}};
+    json["materials"] = {
+        {{"name", "m"},
+         {"pbrMetallicRoughness",
+          {{"baseColorFactor", {1, 1, 1, 1}},
+           {"metallicFactor", 1},
+           {"roughnessFactor", 1},
+           {"baseColorTexture", {{"index", 0}, {"texCoord", 0}, {"extensions", transform}}},
+           {"metallicRoughnessTexture", {{"index", 1}}}}},
+         {"normalTexture", {{"index", 1}, {"scale", 1}}},
+         {"occlusionTexture", {{"index", 1}, {"strength", 1}}},
+         {"emissiveTexture", {{"index", 1}}},
+         {"emissiveFactor", {1, 1, 1}},
+         {"alphaMode", "MASK"},
+         {"alphaCutoff", 0.5},
+         {"doubleSided", true},
+         {"extensions",
+          {{"KHR_materials_emissive_strength", {{"emissiveStrength", 2}}},
+           {"KHR_materials_ior", {{"ior", 2}}},
+           {"KHR_materials_specular",
+            {{"specularFactor", 1}, {"specularColorFactor", {1, 1, 1}}, {"specularTexture", {{"index", 0}}}}}}}}};
+    json["cameras"] = {
+        {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}, {"aspectRatio", 1}}}},
+        {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 1}}}}};
+    json["extensions"] = {{"KHR_lights_punctual",
+                           {{"lights",
+                             {{{"type", "spot"},
+                               {"color", {1, 1, 1}},
+                               {"intensity", 1},
+                               {"range", 1},
+                               {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.2}}}}}}}}};
+    json["nodes"] = {{{"mesh", 0}, {"children", {1, 2}}, {"translation", {1, 2, 3}}, {"rotation", {0, 0, 0, 1}}},
+                     {{"camera", 0},
+                      {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}},
+                      {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}},
+                     {{"camera", 1}, {"scale", {1, 2, 3}}, {"skin", 0}, {"mesh", 0}}};
+    json["skins"] = {{{"joints", {0, 1}}}};
+    json["extensionsUsed"] = {"KHR_lights_punctual", "KHR_texture_transform"};
+    json["extensionsRequired"] = {"KHR_lights_punctual"};
+    json["animations"] = {{{"name", "a"}}};
+    json["asset"]["generator"] = "test";
+    return document;
+}
+
+void expect_sound(const Scene& scene, const std::string& what) {
+    for (const Mesh& mesh : scene.meshes) {
+        for (const Primitive& p : mesh.primitives) {
+            const size_t n = p.positions.size();
+            ASSERT_TRUE(p.flat_normals ? p.normals.empty() : p.normals.size() == n) << what;
+            ASSERT_TRUE(p.tangents.empty() || p.tangents.size() == n) << what;
+            ASSERT_TRUE(p.uv[0].empty() || p.uv[0].size() == n) << what;
+            ASSERT_TRUE(p.uv[1].empty() || p.uv[1].size() == n) << what;
+            ASSERT_TRUE(p.colors.empty() || p.colors.size() == n) << what;
+            for (const Vec3u& t : p.triangles)
+                ASSERT_LT(std::max({t.x, t.y, t.z}), n) << what;
+            for (const Vec3& position : p.positions)
+                ASSERT_TRUE(is_finite(position)) << what;
+            for (const Vec3& normal : p.normals)
+                ASSERT_NEAR(glm::length(normal), 1.0f, 1e-4f) << what;
+            for (const Vec4& tangent : p.tangents)
+                ASSERT_NEAR(glm::length(Vec3(tangent)), 1.0f, 1e-4f) << what;
+            ASSERT_TRUE(!p.material.valid() || p.material.value < scene.materials.size()) << what;
+        }
+    }
+    for (const Material& m : scene.materials) {
+        for (const TextureRef* ref : {&m.base_color, &m.metallic_roughness, &m.normal, &m.occlusion, &m.emissive}) {
+            if (!ref->valid()) continue;
+            ASSERT_LT(ref->texture.value, scene.textures.size()) << what;
+            ASSERT_LT(ref->uv_set, 2u) << what;
+            ASSERT_LT(scene.textures[ref->texture.value].image.value, scene.images.size()) << what;
+        }
+        ASSERT_TRUE(std::isfinite(m.emissive_strength) && m.ior >= 1.0f && m.roughness_factor >= 0.0f) << what;
+    }
+    for (const Instance& instance : scene.instances) {
+        ASSERT_LT(instance.mesh.value, scene.meshes.size()) << what;
+        ASSERT_TRUE(is_finite(Vec3(instance.world_from_object[0]))) << what;
+    }
+    for (const LightInstance& light : scene.light_instances)
+        ASSERT_LT(light.light.value, scene.lights.size()) << what;
+    for (const CameraInstance& camera : scene.cameras)
+        ASSERT_NEAR(glm::determinant(Mat3(camera.camera.world_from_camera)), 1.0f, 1e-3f) << what;
+}
+
+class Hostile : public GltfTest {
+  protected:
+    // Returns whether it loaded.
+    bool try_load(const std::string& name, const std::string& text, const std::string& what) {
+        try {
+            expect_sound(load_file(write(name, text)), what);
+            return true;
+        } catch (const LoadError& error) {
+            EXPECT_FALSE(error.reason().empty()) << what;
+            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << what;
+            return false;
+        }
+    }
+    void SetUp() override {
+        GltfTest::SetUp();
+        options_.decode_images = true;
+        options_.max_memory_bytes = uint64_t{64} << 20;
+    }
+};
+
+// All places of a document, inner ones too.
+void list_pointers(const Json& value, const Json::json_pointer& at, std::vector<Json::json_pointer>& out) {
+    out.push_back(at);
+    if (value.is_object()) {
+        for (auto member = value.begin(); member != value.end(); ++member)
+            list_pointers(member.value(), at / member.key(), out);
+    } else if (value.is_array()) {
+        for (size_t i = 0; i < value.size(); ++i)
+            list_pointers(value[i], at / i, out);
+    }
+}
+
+TEST_F(Hostile, EveryValueReplaced) {
+    Document document = everything();
+    document.finish("data.bin");
+    write("data.bin", {document.bytes.begin(), document.bytes.end()});
+    ASSERT_TRUE(try_load("scene.gltf", document.json.dump(), "untouched")) << failure(document);
+
+    std::vector<Json::json_pointer> places;
+    list_pointers(document.json, Json::json_pointer(), places);
+    ASSERT_GT(places.size(), 250u);
+    const std::vector<Json> nasty = {nullptr,
+                                     -1,
+                                     0,
+                                     1,
+                                     3,
+                                     0.5,
+                                     1e308,
+                                     -1e30,
+                                     4294967295,
+                                     9223372036854775807,
+                                     "",
+                                     "x",
+                                     true,
+                                     Json::array(),
+                                     Json::object(),
+                                     Json::array({0}),
+                                     Json::array({Json::object()})};
+    int loaded = 0, tried = 0;
+    for (const Json::json_pointer& place : places) {
+        options_.decode_images = place.to_string().rfind("/images", 0) == 0;
+        for (const Json& value : nasty) {
+            Json broken = document.json;
+            broken[place] = value;
+            loaded += try_load("scene.gltf", broken.dump(), place.to_string() + " = " + value.dump());
+            ++tried;
+            if (HasFatalFailure()) return;
+        }
+        if (place.empty()) continue;
+        Json missing = document.json;
+        Json& parent = missing[place.parent_pointer()];
+        if (parent.is_object()) {
+            parent.erase(place.back());
+        } else {
+            parent.erase(static_cast<size_t>(std::stoul(place.back())));
+        }
+        loaded += try_load("scene.gltf", missing.dump(), place.to_string() + " erased");
+        ++tried;
+    }
+    // Both happen: nothing is refused wholesale, and nothing passes unseen.
+    EXPECT_GT(loaded, tried / 10);
+    EXPECT_LT(loaded, tried * 3 / 4);
+}
+
+TEST_F(Hostile, DamagedContainers) {
+    Document document = everything();
+    document.finish("");
+    const std::string glb = glb_bytes(document.json.dump(), {document.bytes.begin(), document.bytes.end()});
+    ASSERT_TRUE(try_load("scene.glb", glb, "untouched"));
+    std::mt19937 random(7);
+    const auto below = [&](size_t n) { return std::uniform_int_distribution<size_t>(0, n - 1)(random); };
+    int loaded = 0;
+    constexpr int rounds = 3000;
+    for (int round = 0; round < rounds; ++round) {
+        options_.decode_images = round % 10 == 0;
+        std::string damaged = glb;
+        const size_t changes = 1 + below(4);
+        for (size_t i = 0; i < changes; ++i) {
+            // Every third change strikes the headers.
+            const size_t at = below(3) == 0 ? below(24) : below(damaged.size());
+            damaged[at] = static_cast<char>(below(256));
+        }
+        if (below(4) == 0) damaged.resize(below(damaged.size()));
+        loaded += try_load("scene.glb", damaged, "round " + std::to_string(round));
+        if (HasFatalFailure()) return;
+    }
+    EXPECT_GT(loaded, rounds / 50);
+}
+
+// Bytes of the vertex data at random: NaN, infinities, denormals and indices out of range.
+TEST_F(Hostile, DamagedVertexData) {
+    Document document = everything();
+    document.finish("data.bin");
+    std::mt19937 random(11);
+    int loaded = 0;
+    options_.decode_images = false;
+    for (int round = 0; round < 1000; ++round) {
+        std::string bytes(document.bytes.begin(), document.bytes.end());
+        const size_t first = std::uniform_int_distribution<size_t>(0, bytes.size() - 8)(random);
+        for (size_t i = first; i < std::min(bytes.size(), first + 40); ++i) {
+            bytes[i] = static_cast<char>(random() % 4 == 0 ? 0xff : random() % 256);
+        }
+        write("data.bin", bytes);
+        loaded += try_load("scene.gltf", document.json.dump(), "round " + std::to_string(round));
+        if (HasFatalFailure()) return;
+    }
+    EXPECT_GT(loaded, 300);
+}
+
+}  // namespace
+}  // namespace candela
