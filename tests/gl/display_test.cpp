@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+// What the shader draws is what the CPU's tone map computes.
+#include "app/gl/display.h"
+
+#include <random>
+
+#include "app/gl/osmesa_context.h"
+
+namespace candela {
+namespace {
+
+constexpr ToneCurve curves[] = {ToneCurve::linear, ToneCurve::neutral, ToneCurve::aces, ToneCurve::agx};
+
+// Radiance from 1e-4 to 1e3 in every hue, black, and pure primaries.
+Frame make_frame(int width, int height) {
+    Frame frame;
+    frame.image = ImageRgba32f(width, height);
+    frame.epoch = 1;
+    frame.statistics.total_samples = 1;
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> exponent(-4.0f, 3.0f);
+    for (Vec4& pixel : frame.image.pixels()) {
+        pixel = Vec4(std::pow(10.0f, exponent(random)), std::pow(10.0f, exponent(random)),
+                     std::pow(10.0f, exponent(random)), 1);
+    }
+    frame.image(0, 0) = Vec4(0, 0, 0, 1);
+    frame.image(1, 0) = Vec4(1, 0, 0, 1);
+    frame.image(2, 0) = Vec4(0, 1, 0, 1);
+    frame.image(3, 0) = Vec4(0, 0, 5, 1);
+    return frame;
+}
+
+TEST(Display, ReadBackEqualsTheToneMapOfTheCpu) {
+    const Frame frame = make_frame(173, 61);
+    const OsmesaContext context({173, 61});
+    Display display(context);
+    display.upload(frame);
+    for (const ToneCurve curve : curves) {
+        for (const float exposure_ev : {-2.5f, 0.0f, 1.0f}) {
+            const ToneSettings tone{exposure_ev, curve};
+            display.draw({tone, false});
+            const ImageRgba8 drawn = read_back(context);
+            for (size_t i = 0; i < drawn.size(); ++i) {
+                // Rounded to the nearest of 256 levels, give or take what the driver's pow and log2 lose.
+                const Vec3 exact = 255.0f * display_from_linear(Vec3(frame.image.pixels()[i]), tone);
+                for (int c = 0; c < 3; ++c) {
+                    ASSERT_NEAR(drawn.pixels()[i][c], exact[c], 0.5f + 0.02f)
+                        << name_of(curve) << " " << exposure_ev << " EV, pixel " << i << ", channel " << c;
+                }
+                ASSERT_EQ(drawn.pixels()[i].a, 255);
+            }
+        }
+    }
+}
+
+TEST(Display, PremultipliedPixelsKeepTheirColourAndAlpha) {
+    Frame frame = make_frame(64, 8);
+    for (size_t i = 0; i < frame.image.size(); ++i)
+        frame.image.pixels()[i] *= static_cast<float>(i % 5) / 4.0f;
+    const OsmesaContext context({64, 8});
+    Display display(context);
+    display.upload(frame);
+    display.draw({{}, false});
+    const ImageRgba8 drawn = read_back(context);
+    const ImageRgba8 expected = tone_map(frame.image, {});
+    for (size_t i = 0; i < drawn.size(); ++i) {
+        for (int c = 0; c < 4; ++c)
+            ASSERT_NEAR(drawn.pixels()[i][c], expected.pixels()[i][c], 1) << i;
+    }
+}
+
+TEST(Display, TransparentPixelsShowACheckerboard) {
+    Frame frame = make_frame(32, 32);
+    for (Vec4& pixel : frame.image.pixels())
+        pixel = Vec4(0);
+    const OsmesaContext context({32, 32});
+    Display display(context);
+    display.upload(frame);
+    display.draw({});
+    const ImageRgba8 drawn = read_back(context);
+    EXPECT_NE(drawn(0, 31), drawn(8, 31));
+    EXPECT_EQ(drawn(0, 31), drawn(16, 31));
+    EXPECT_EQ(drawn(0, 31).a, 255);
+}
+
+TEST(Display, AFrameOfAnotherShapeIsFittedInTheMiddle) {
+    Frame frame;
+    frame.image = ImageRgba32f(40, 20, Vec4(1, 1, 1, 1));
+    frame.epoch = 1;
+    const OsmesaContext context({100, 100});
+    Display display(context);
+    display.upload(frame);
+    display.draw({{0, ToneCurve::linear}, true});
+    const ImageRgba8 drawn = read_back(context);
+    const Rgba8 white(255), border = drawn(0, 0);
+    EXPECT_NE(border, white);
+    EXPECT_EQ(drawn(50, 24), border);
+    EXPECT_EQ(drawn(50, 25), white);
+    EXPECT_EQ(drawn(0, 50), white);
+    EXPECT_EQ(drawn(99, 74), white);
+    EXPECT_EQ(drawn(50, 75), border);
+}
+
+TEST(Display, ANewFrameReplacesTheOldAndAnEqualOneIsNotUploadedAgain) {
+    Frame frame;
+    frame.image = ImageRgba32f(8, 8, Vec4(1, 1, 1, 1));
+    frame.epoch = 1;
+    frame.statistics.total_samples = 64;
+    const OsmesaContext context({8, 8});
+    Display display(context);
+    display.upload(frame);
+    display.draw({{0, ToneCurve::linear}, true});
+    EXPECT_EQ(read_back(context)(3, 3), Rgba8(255));
+
+    for (Vec4& pixel : frame.image.pixels())
+        pixel = Vec4(0, 0, 0, 1);
+    display.upload(frame);
+    display.draw({{0, ToneCurve::linear}, true});
+    EXPECT_EQ(read_back(context)(3, 3), Rgba8(255));
+
+    frame.statistics.total_samples = 128;
+    display.upload(frame);
+    display.draw({{0, ToneCurve::linear}, true});
+    EXPECT_EQ(read_back(context)(3, 3), Rgba8(0, 0, 0, 255));
+}
+
+TEST(Display, RowsStandUpright) {
+    Frame frame = make_frame(16, 16);
+    for (int x = 0; x < 16; ++x)
+        frame.image(x, 0) = Vec4(1, 0, 0, 1);
+    for (int x = 0; x < 16; ++x)
+        frame.image(x, 15) = Vec4(0, 1, 0, 1);
+    const OsmesaContext context({16, 16});
+    Display display(context);
+    display.upload(frame);
+    display.draw({{0, ToneCurve::linear}, true});
+    const ImageRgba8 drawn = read_back(context);
+    EXPECT_EQ(drawn(5, 0), Rgba8(255, 0, 0, 255));
+    EXPECT_EQ(drawn(5, 15), Rgba8(0, 255, 0, 255));
+}
+
+TEST(OsmesaContext, ResizesAndKeepsItsPrograms) {
+    OsmesaContext context({16, 16});
+    Display display(context);
+    display.upload(make_frame(16, 16));
+    context.resize({33, 47});
+    display.draw({});
+    EXPECT_EQ(read_back(context).width(), 33);
+    EXPECT_EQ(context.gl().GetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+TEST(OsmesaContext, SaysWhatItCannotDraw) {
+    EXPECT_THROW(OsmesaContext({60000, 8}), GlError);
+}
+
+TEST(GlFunctions, AMissingFunctionIsNamed) {
+    try {
+        load_gl_functions([](const char*) -> void* { return nullptr; });
+        FAIL();
+    } catch (const GlError& error) {
+        EXPECT_NE(std::string(error.what()).find("glActiveTexture"), std::string::npos) << error.what();
+    }
+}
+
+}  // namespace
+}  // namespace candela
