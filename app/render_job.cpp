@@ -24,18 +24,10 @@ CommandError usage(const std::string& line) {
     return {ExitStatus::wrong_usage, line};
 }
 
-Environment read_environment(const RenderOptions& options) {
-    Environment out;
-    try {
-        const ImageRgba32f image = read_linear(options.hdri);
-        out.radiance = ImageRgb32f(image.width(), image.height());
-        for (size_t i = 0; i < image.size(); ++i)
-            out.radiance.pixels()[i] = Vec3(image.pixels()[i]);
-    } catch (const ImageError& error) {
-        throw CommandError(
-            ExitStatus::unreadable_scene,
-            fmt::format("{}: {}; give an equirectangular .hdr or .exr file", options.hdri, error.what()));
-    }
+// As the options turn and scale it.
+std::optional<Environment> place_environment(const Environment* environment, const RenderOptions& options) {
+    if (environment == nullptr) return std::nullopt;
+    Environment out = *environment;
     out.rotation_radians = glm::radians(options.hdri_rotation_degrees);
     out.intensity = options.hdri_intensity;
     return out;
@@ -51,18 +43,14 @@ bool has_light(const Scene& scene) {
     return false;
 }
 
-std::optional<Environment> choose_environment(const RenderOptions& options, const Scene& scene,
-                                              std::vector<std::string>& warnings) {
-    if (!options.hdri.empty()) return read_environment(options);
-    Environment sky;
-    if (options.sky) {
-        sky.radiance = ImageRgb32f(1, 1, *options.sky);
-        return sky;
-    }
-    if (has_light(scene)) return std::nullopt;
+std::shared_ptr<const Environment> choose_environment(const RenderOptions& options, const Scene& scene,
+                                                      std::vector<std::string>& warnings) {
+    if (!options.hdri.empty() || options.sky) return read_environment(options);
+    if (has_light(scene)) return nullptr;
     warnings.push_back(
         "the scene has no light of its own, so a neutral sky of radiance 1 lights it; --sky or --hdri choose another");
-    sky.radiance = ImageRgb32f(1, 1, Vec3(1));
+    auto sky = std::make_shared<Environment>();
+    sky->radiance = ImageRgb32f(1, 1, Vec3(1));
     return sky;
 }
 
@@ -111,6 +99,31 @@ Vec2u choose_extent(const RenderOptions& options, const Camera& camera) {
 
 }  // namespace
 
+std::shared_ptr<const Environment> read_environment(const RenderOptions& options) {
+    auto out = std::make_shared<Environment>();
+    if (options.hdri.empty()) {
+        out->radiance = ImageRgb32f(1, 1, options.sky.value_or(Vec3(1)));
+        return out;
+    }
+    try {
+        const ImageRgba32f image = read_linear(options.hdri);
+        out->radiance = ImageRgb32f(image.width(), image.height());
+        for (size_t i = 0; i < image.size(); ++i)
+            out->radiance.pixels()[i] = Vec3(image.pixels()[i]);
+    } catch (const ImageError& error) {
+        throw CommandError(
+            ExitStatus::unreadable_scene,
+            fmt::format("{}: {}; give an equirectangular .hdr or .exr file", options.hdri, error.what()));
+    }
+    return out;
+}
+
+std::shared_ptr<const World> with_environment(const std::shared_ptr<const World>& world,
+                                              const std::shared_ptr<const Environment>& environment,
+                                              const RenderOptions& options) {
+    return with_environment(world, place_environment(environment.get(), options));
+}
+
 std::filesystem::path default_scene() {
     const std::filesystem::path name = "cornell_box.glb";
     std::error_code error;
@@ -151,7 +164,8 @@ RenderJob prepare_render(const RenderOptions& options, const std::function<void(
     // Build.
     const Clock::time_point build_start = Clock::now();
     BuildOptions build;
-    build.environment = choose_environment(options, *scene, job.warnings);
+    job.environment = choose_environment(options, *scene, job.warnings);
+    build.environment = place_environment(job.environment.get(), options);
     build.cancel = cancel;
     try {
         job.world = build_world(scene, build);

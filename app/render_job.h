@@ -14,6 +14,8 @@ namespace candela {
 struct RenderJob {
     std::string scene_path;
     std::shared_ptr<const World> world;
+    // As read, without --hdri-rotation and --hdri-intensity; null where only the scene's own lights shine.
+    std::shared_ptr<const Environment> environment;
     RenderRequest request;
     std::vector<std::string> warnings;
     double load_seconds = 0, build_seconds = 0;
@@ -25,5 +27,12 @@ std::filesystem::path default_scene();
 // Loads the scene and builds its world. progress: step, 0..1. Throws CommandError (unreadable scene, wrong usage).
 RenderJob prepare_render(const RenderOptions& options, const std::function<void(const char*, double)>& progress,
                          const std::atomic<bool>* cancel);
+
+// The environment that the options name. Throws CommandError.
+std::shared_ptr<const Environment> read_environment(const RenderOptions& options);
+// A world with that environment (null: none) as the options turn and scale it.
+std::shared_ptr<const World> with_environment(const std::shared_ptr<const World>& world,
+                                              const std::shared_ptr<const Environment>& environment,
+                                              const RenderOptions& options);
 
 }  // namespace candela

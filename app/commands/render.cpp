@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MIT
 // candela render: a scene to a file, without a display.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <chrono>
 
-#include "app/command_line.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/picture_file.h"
 #include "app/progress_bar.h"
 #include "app/render_job.h"
 #include "app/statistics_file.h"
 #include "renderer/image/atomic_file.h"
-#include "renderer/image/codec.h"
 #include "renderer/integrator/aov.h"
 
 namespace candela {
@@ -20,30 +18,6 @@ namespace candela {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-std::string extension_of(const std::string& path) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return std::tolower(c); });
-    return extension;
-}
-
-// Says before the work what would fail after it.
-void check_output(const std::string& path) {
-    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    std::error_code error;
-    if (std::filesystem::is_directory(path, error)) {
-        throw CommandError(ExitStatus::unwritable_output, path + ": is a folder; name a file in it");
-    }
-    const std::string where = folder.empty() ? "." : folder.string();
-    if (!std::filesystem::is_directory(where, error)) {
-        throw CommandError(ExitStatus::unwritable_output,
-                           path + ": the folder " + where + " does not exist; make it first");
-    }
-    if (access(where.c_str(), W_OK) != 0) {
-        throw CommandError(ExitStatus::unwritable_output, path + ": the folder " + where + " cannot be written to");
-    }
-}
 
 void check_options(const RenderOptions& options) {
     const std::string extension = extension_of(options.output);
@@ -110,36 +84,11 @@ std::vector<ExrLayer> make_layers(const RenderOptions& options, const RenderRequ
     return layers;
 }
 
-std::string describe_camera(const Camera& camera) {
-    const Mat4& m = camera.world_from_camera;
-    return fmt::format("eye {},{},{} forward {},{},{} up {},{},{} {}", m[3].x, m[3].y, m[3].z, -m[2].x, -m[2].y,
-                       -m[2].z, m[1].x, m[1].y, m[1].z,
-                       camera.projection == Projection::perspective
-                           ? fmt::format("yfov {} degrees", glm::degrees(camera.yfov_radians))
-                           : fmt::format("height {} m", 2 * camera.ortho_half_height_m));
-}
-
 void write_picture(const RenderOptions& options, const RenderJob& job, const Frame& frame, RenderSession& session) {
-    const bool with_alpha = options.integrator.background == BackgroundKind::transparent;
-    std::map<std::string, std::string> header{{"command", options.command},
-                                              {"version", version_line()},
-                                              {"camera", describe_camera(job.request.view.camera)}};
-    if (job.request.settings.biased()) header["biased"] = "depth limit or clamp";
-    const std::string extension = extension_of(options.output);
-    try {
-        if (extension == ".png") {
-            write_png(options.output, tone_map(frame.image, options.tone), with_alpha, header);
-        } else if (extension == ".hdr") {
-            write_hdr(options.output, frame.image);
-        } else {
-            std::vector<ExrLayer> layers;
-            if (!options.aovs.empty()) layers = make_layers(options, job.request, session.snapshot_film());
-            write_exr(options.output, frame.image, with_alpha, header, layers);
-        }
-    } catch (const ImageError& error) {
-        throw CommandError(ExitStatus::unwritable_output,
-                           options.output + ": " + error.what() + "; nothing was written");
-    }
+    std::vector<ExrLayer> layers;
+    if (!options.aovs.empty()) layers = make_layers(options, job.request, session.snapshot_film());
+    save_picture(options.output, frame, options.tone, job.request.settings,
+                 picture_header(options.command, job.request), layers);
 }
 
 void write_statistics(const RenderOptions& options, const RunRecord& record) {
