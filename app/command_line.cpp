@@ -150,10 +150,20 @@ std::string joined(int argc, char** argv) {
 ExitStatus dispatch(int argc, char** argv) {
     CLI::App app("candela: watch a glTF scene converge to the light that is in it");
     app.set_version_flag("--version", std::string(version_line()));
-    app.require_subcommand(1);
+    app.require_subcommand(0, 1);
 
     RenderOptions render;
     RawRenderOptions raw;
+    add_render_options(app, render, raw);
+    CLI::App* view_command = app.add_subcommand("view", "open the window (also without a command)");
+    add_render_options(*view_command, render, raw);
+
+    bool with_interface = true;
+    CLI::App* screenshot_command = app.add_subcommand("screenshot", "the viewer's own picture, drawn off-screen");
+    add_render_options(*screenshot_command, render, raw);
+    screenshot_command->add_option("-o,--output", render.output, "ends in .png")->required()->type_name("OUT.png");
+    screenshot_command->add_flag("--ui,!--no-ui", with_interface, "with its panels, or only the picture");
+
     CLI::App* render_command = app.add_subcommand("render", "render without a display");
     add_render_options(*render_command, render, raw);
     render_command->add_option("-o,--output", render.output, "ends in .png, .exr or .hdr")
@@ -189,7 +199,9 @@ ExitStatus dispatch(int argc, char** argv) {
     if (*compare_command) return run_compare(compare);
     render.command = joined(argc, argv);
     finish_render_options(raw, render);
-    return run_render(render);
+    if (*render_command) return run_render(render);
+    if (*screenshot_command) return run_screenshot(render, with_interface);
+    return run_view(render);
 }
 
 }  // namespace

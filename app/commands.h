@@ -7,6 +7,8 @@
 
 namespace candela {
 
+ExitStatus run_view(const RenderOptions& options);
+ExitStatus run_screenshot(const RenderOptions& options, bool with_interface);
 ExitStatus run_render(const RenderOptions& options);
 ExitStatus run_info(const InfoOptions& options);
 ExitStatus run_compare(const CompareOptions& options);

@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "app/clock_text.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/picture_file.h"
@@ -102,12 +103,6 @@ void write_statistics(const RenderOptions& options, const RunRecord& record) {
     } catch (const ImageError& error) {
         throw CommandError(ExitStatus::unwritable_output, options.stats_file + ": " + error.what());
     }
-}
-
-std::string clock_text(double seconds) {
-    const int64_t whole = std::llround(seconds);
-    return whole < 3600 ? fmt::format("{}:{:02}", whole / 60, whole % 60)
-                        : fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
 // The nearest of the limits, as a fraction of the way there.

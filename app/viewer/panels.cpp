@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "app/viewer/panels.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "app/clock_text.h"
+
+namespace candela {
+
+namespace {
+
+constexpr ImGuiWindowFlags overlay_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                           ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
+                                           ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize;
+const ImVec4 accent(0.91f, 0.64f, 0.24f, 1.0f);
+const ImVec4 alarm(0.95f, 0.45f, 0.35f, 1.0f);
+
+float unit() {
+    return ImGui::GetFontSize();
+}
+
+// A window of fixed place: anchor and pivot are fractions of the display and of the window.
+void place(const ImVec2& anchor, const ImVec2& offset) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({anchor.x * display.x + offset.x, anchor.y * display.y + offset.y}, ImGuiCond_Always,
+                            anchor);
+}
+
+void text(const std::string& line) {
+    ImGui::TextUnformatted(line.c_str(), line.c_str() + line.size());
+}
+
+// Items of the status line, each behind a gap.
+class Line {
+  public:
+    explicit Line(float right_end) : right_end_(right_end) {}
+    // Left out where it would not fit.
+    void item(const std::string& words, const ImVec4* color = nullptr) {
+        const float width = ImGui::CalcTextSize(words.c_str()).x;
+        if (x_ + width > right_end_) return;
+        ImGui::SameLine(x_);
+        if (color != nullptr) ImGui::PushStyleColor(ImGuiCol_Text, *color);
+        text(words);
+        if (color != nullptr) ImGui::PopStyleColor();
+        x_ += width + 1.6f * unit();
+    }
+    void start(float x) { x_ = x; }
+
+  private:
+    float x_ = 0, right_end_;
+};
+
+const char* state_words(const ViewerModel& model) {
+    if (model.status.paused) return "paused";
+    return model.status.done ? "done" : nullptr;
+}
+
+}  // namespace
+
+void draw_status_line(const ViewerModel& model) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float height = 1.8f * unit(), margin = 0.8f * unit();
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(margin, (height - unit()) / 2));
+    ImGui::SetNextWindowPos({0, display.y - height});
+    ImGui::SetNextWindowSize({display.x, height});
+    ImGui::Begin("status", nullptr, (overlay_flags & ~ImGuiWindowFlags_AlwaysAutoResize) | ImGuiWindowFlags_NoInputs);
+
+    // What the picture is shown with stands at the right, how far it is at the left.
+    const std::string right =
+        fmt::format("{} {:+.2f} EV    H help", name_of(model.display.tone.curve), model.display.tone.exposure_ev);
+    const float right_begin = display.x - margin - ImGui::CalcTextSize(right.c_str()).x;
+    Line line(right_begin - unit());
+    line.start(margin);
+    if (model.has_scene()) {
+        line.item(file_name(model.job.scene_path));
+        line.item(fmt::format("{} spp", model.status.spp));
+        line.item(clock_text(model.status.render_seconds));
+        if (std::isfinite(model.film.relative_error) && model.status.spp > 0) {
+            line.item(fmt::format("error {:.2f} %", 100 * model.film.relative_error));
+        }
+        line.item(fmt::format("{:.2f} Mrays/s", model.status.rays_per_second * 1e-6));
+        if (const char* state = state_words(model)) line.item(state, &accent);
+        if (model.job.request.settings.biased()) line.item("biased", &alarm);
+        if (model.film.non_finite > 0) line.item(fmt::format("{} samples not finite", model.film.non_finite), &alarm);
+        if (!model.job.warnings.empty()) {
+            line.item(
+                fmt::format("{} warning{} (Z)", model.job.warnings.size(), model.job.warnings.size() > 1 ? "s" : ""),
+                &accent);
+        }
+    }
+    if (right_begin > margin) {
+        ImGui::SameLine(right_begin);
+        ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+        text(right);
+        ImGui::PopStyleColor();
+    }
+    ImGui::End();
+    ImGui::PopStyleVar(3);
+}
+
+void draw_loading_bar(const ViewerModel& model) {
+    place({0.5f, 1.0f}, {0, -3.2f * unit()});
+    ImGui::Begin("loading", nullptr, overlay_flags | ImGuiWindowFlags_NoInputs);
+    text("opening " + model.loading_name);
+    const float width = std::min(20 * unit(), 0.7f * ImGui::GetIO().DisplaySize.x);
+    ImGui::ProgressBar(static_cast<float>(model.loading_state.fraction), {width, 0.4f * unit()}, "");
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    text(model.loading_state.step.empty() ? "waiting" : model.loading_state.step);
+    ImGui::PopStyleColor();
+    ImGui::End();
+}
+
+void draw_welcome(const ViewerModel&) {
+    place({0.5f, 0.5f}, {0, 0});
+    ImGui::Begin("welcome", nullptr, overlay_flags | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoBackground);
+    text("Drop a .gltf or .glb file here");
+    ImGui::End();
+}
+
+bool draw_notice(const ViewerModel& model) {
+    const float wrap = std::min(44 * unit(), 0.9f * ImGui::GetIO().DisplaySize.x - 2 * unit());
+    place({0.5f, 0.0f}, {0, unit()});
+    ImGui::Begin("notice", nullptr, overlay_flags | (model.notice_is_error ? 0 : ImGuiWindowFlags_NoInputs));
+    ImGui::PushTextWrapPos(wrap);
+    if (model.notice_is_error)
+        ImGui::TextColored(alarm, "%s",
+                           model.has_scene() ? "That did not work; what was open stays" : "That did not work");
+    text(model.notice);
+    ImGui::PopTextWrapPos();
+    const bool dismissed = model.notice_is_error && ImGui::Button("Close");
+    ImGui::End();
+    return dismissed;
+}
+
+void draw_help() {
+    constexpr const char* rows[][2] = {{"orbit", "left drag, Alt+left drag"},
+                                       {"pan", "middle drag, Shift+left drag"},
+                                       {"nearer, farther", "wheel towards the cursor, right drag"},
+                                       {"re-centre", "double-click"},
+                                       {"focus", "Ctrl+Shift+left click"},
+                                       {"frame all", "Home, Enter"},
+                                       {"front, right, top", "1  3  7"},
+                                       {"isometric, orthographic", "9  5"},
+                                       {"cameras of the file", "C"},
+                                       {"exposure", "E, Shift+E"},
+                                       {"tone curve", "T"},
+                                       {"turn, hide environment", "Shift+right drag, J"},
+                                       {"pause", "P"},
+                                       {"save picture", "Ctrl+S, F12"},
+                                       {"reload", "F5"},
+                                       {"next, previous file", "right, left arrow"},
+                                       {"open", "drop a .gltf, .glb, .hdr or .exr file"},
+                                       {"statistics, panels, help", "Z  Tab  H"},
+                                       {"quit", "Ctrl+Q"}};
+    place({0.5f, 0.5f}, {0, 0});
+    ImGui::Begin("help", nullptr, overlay_flags | ImGuiWindowFlags_NoInputs);
+    if (ImGui::BeginTable("keys", 2)) {
+        for (const auto& row : rows) {
+            ImGui::TableNextColumn();
+            ImGui::TextDisabled("%s", row[0]);
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(row[1]);
+        }
+        ImGui::EndTable();
+    }
+    ImGui::End();
+}
+
+void draw_statistics(const ViewerModel& model) {
+    if (!model.has_scene()) return;
+    place({0.0f, 0.0f}, {unit(), unit()});
+    ImGui::Begin("statistics", nullptr, overlay_flags | ImGuiWindowFlags_NoInputs);
+    const auto row = [](const char* name, const std::string& value) {
+        ImGui::TableNextColumn();
+        ImGui::TextDisabled("%s", name);
+        ImGui::TableNextColumn();
+        text(value);
+    };
+    const SessionStatus& status = model.status;
+    const World& world = *model.job.world;
+    if (ImGui::BeginTable("figures", 2)) {
+        row("picture", fmt::format("{} x {}", model.frame_extent.x, model.frame_extent.y));
+        row("triangles", fmt::format("{} in {} instances", world.triangle_count, world.scene->instances.size()));
+        row("light sources",
+            fmt::format("{} punctual, {} triangles{}", world.lights.punctual.size(), world.lights.triangles.size(),
+                        world.lights.environment ? ", environment" : ""));
+        row("loaded, built in",
+            fmt::format("{:.0f} ms, {:.0f} ms", 1e3 * model.job.load_seconds, 1e3 * model.job.build_seconds));
+        row("camera rays", fmt::format("{:.2f} M", static_cast<double>(status.rays.camera) * 1e-6));
+        row("bounce rays", fmt::format("{:.2f} M", static_cast<double>(status.rays.bounce) * 1e-6));
+        row("shadow rays", fmt::format("{:.2f} M", static_cast<double>(status.rays.shadow) * 1e-6));
+        row("edit to picture", fmt::format("{:.1f} ms", 1e3 * status.last_first_frame_seconds));
+        row("of which letting go", fmt::format("{:.1f} ms", 1e3 * status.last_cancel_seconds));
+        ImGui::EndTable();
+    }
+    ImGui::PushTextWrapPos(30 * unit());
+    for (const std::string& warning : model.job.warnings) {
+        ImGui::PushStyleColor(ImGuiCol_Text, accent);
+        text(warning);
+        ImGui::PopStyleColor();
+    }
+    ImGui::PopTextWrapPos();
+    ImGui::End();
+}
+
+}  // namespace candela

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// What is drawn over the picture. Each function fills the current ImGui frame.
+#pragma once
+
+#include "app/viewer/viewer_model.h"
+
+namespace candela {
+
+// The line at the foot: scene, samples, time, speed, error.
+void draw_status_line(const ViewerModel& model);
+// While a scene loads.
+void draw_loading_bar(const ViewerModel& model);
+// Before the first scene is there.
+void draw_welcome(const ViewerModel& model);
+// A line of news or of failure; returns true when the person dismissed it.
+bool draw_notice(const ViewerModel& model);
+void draw_help();
+void draw_statistics(const ViewerModel& model);
+// Camera, light, rendering, display and scene, at the right.
+PanelEdits draw_side_panel(ViewerModel& model);
+
+}  // namespace candela

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "app/viewer/panels.h"
+
+namespace candela {
+
+namespace {
+
+// A combo of fixed words; true when another one was chosen.
+template <typename E, size_t N>
+bool choose(const char* label, E& value, const char* const (&words)[N]) {
+    int index = static_cast<int>(value);
+    if (!ImGui::Combo(label, &index, words, static_cast<int>(N))) return false;
+    value = static_cast<E>(index);
+    return true;
+}
+
+// A combo over strings that the file names; returns the chosen index.
+std::optional<uint32_t> choose_named(const char* label, const char* preview, const std::vector<std::string>& names) {
+    std::optional<uint32_t> chosen;
+    if (!ImGui::BeginCombo(label, preview)) return chosen;
+    for (uint32_t i = 0; i < names.size(); ++i) {
+        ImGui::PushID(static_cast<int>(i));
+        if (ImGui::Selectable(names[i].empty() ? fmt::format("number {}", i).c_str() : names[i].c_str())) chosen = i;
+        ImGui::PopID();
+    }
+    ImGui::EndCombo();
+    return chosen;
+}
+
+void camera_section(ViewerModel& model, PanelEdits& edits) {
+    if (!ImGui::CollapsingHeader("Camera", ImGuiTreeNodeFlags_DefaultOpen)) return;
+    Camera& camera = model.view.camera;
+    const Scene& scene = *model.job.world->scene;
+    if (!scene.cameras.empty()) {
+        std::vector<std::string> names;
+        for (const CameraInstance& each : scene.cameras)
+            names.push_back(each.name);
+        edits.camera = choose_named("of the file", "choose", names);
+    }
+    if (camera.projection == Projection::perspective) {
+        float degrees = glm::degrees(camera.yfov_radians);
+        if (ImGui::SliderFloat("field of view", &degrees, 1, 150, "%.1f°", ImGuiSliderFlags_AlwaysClamp)) {
+            camera.yfov_radians = glm::radians(degrees);
+            edits.view = true;
+        }
+        edits.view |= ImGui::DragFloat("aperture", &camera.aperture_diameter_m, 0.001f, 0, 1000, "%.3f m",
+                                       ImGuiSliderFlags_AlwaysClamp);
+        if (camera.aperture_diameter_m > 0) {
+            edits.view |= ImGui::DragFloat("focus", &camera.focus_distance_m, 0.01f * camera.focus_distance_m, 1e-4f,
+                                           1e6f, "%.3f m", ImGuiSliderFlags_AlwaysClamp);
+        }
+    }
+    edits.frame_all = ImGui::Button("Frame all");
+}
+
+void light_section(ViewerModel& model, PanelEdits& edits) {
+    if (!ImGui::CollapsingHeader("Environment", ImGuiTreeNodeFlags_DefaultOpen)) return;
+    if (model.job.environment == nullptr) {
+        ImGui::TextDisabled("none: drop an .hdr or .exr file");
+    } else {
+        edits.environment |= ImGui::SliderFloat("turn", &model.options.hdri_rotation_degrees, -180, 180, "%.0f°");
+        edits.environment |=
+            ImGui::SliderFloat("intensity", &model.options.hdri_intensity, 0, 10, "%.2f", ImGuiSliderFlags_Logarithmic);
+    }
+    constexpr const char* backgrounds[] = {"environment", "colour", "transparent"};
+    IntegratorSettings& settings = model.options.integrator;
+    edits.settings |= choose("background", settings.background, backgrounds);
+    if (settings.background == BackgroundKind::color)
+        edits.settings |= ImGui::ColorEdit3("colour", &settings.background_color.x,
+                                            ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR);
+}
+
+void render_section(ViewerModel& model, PanelEdits& edits) {
+    if (!ImGui::CollapsingHeader("Rendering", ImGuiTreeNodeFlags_DefaultOpen)) return;
+    IntegratorSettings& settings = model.options.integrator;
+    constexpr const char* estimators[] = {"MIS", "light", "BSDF"};
+    constexpr const char* samplers[] = {"Sobol", "independent"};
+    constexpr const char* filters[] = {"Blackman-Harris", "box"};
+    edits.settings |= choose("estimator", settings.estimator, estimators);
+    edits.settings |= choose("sampler", settings.sampler, samplers);
+    edits.settings |= choose("filter", settings.filter, filters);
+    int depth = static_cast<int>(settings.max_depth);
+    if (ImGui::SliderInt("depth", &depth, 0, 16, depth == 0 ? "no limit" : "%d (biased)",
+                         ImGuiSliderFlags_AlwaysClamp)) {
+        settings.max_depth = static_cast<uint32_t>(depth);
+        edits.settings = true;
+    }
+    edits.settings |=
+        ImGui::DragFloat("clamp", &settings.clamp_indirect, 0.1f, 0, 1000,
+                         settings.clamp_indirect > 0 ? "%.1f (biased)" : "off", ImGuiSliderFlags_AlwaysClamp);
+    edits.toggle_pause = ImGui::Button(model.status.paused ? "Go on" : "Pause");
+}
+
+void display_section(ViewerModel& model, PanelEdits& edits) {
+    if (!ImGui::CollapsingHeader("Display", ImGuiTreeNodeFlags_DefaultOpen)) return;
+    constexpr const char* curves[] = {"linear", "neutral", "ACES", "AgX"};
+    edits.tone |= ImGui::SliderFloat("exposure", &model.display.tone.exposure_ev, -10, 10, "%+.2f EV");
+    edits.tone |= choose("tone curve", model.display.tone.curve, curves);
+}
+
+void scene_section(const ViewerModel& model, PanelEdits& edits) {
+    if (!ImGui::CollapsingHeader("File")) return;
+    const Scene& scene = *model.job.world->scene;
+    ImGui::TextWrapped("%s", model.job.scene_path.c_str());
+    if (scene.scene_names.size() > 1) {
+        const std::string& now = scene.scene_names[scene.active_scene];
+        edits.scene =
+            choose_named("scene", now.empty() ? fmt::format("number {}", scene.active_scene).c_str() : now.c_str(),
+                         scene.scene_names);
+    }
+    constexpr const char* treatments[] = {"rendered", "approximated", "ignored", "refused"};
+    for (const ExtensionUse& use : scene.extensions) {
+        ImGui::TextWrapped("%s", use.name.c_str());
+        ImGui::Indent();
+        ImGui::TextDisabled("%s%s%s", treatments[static_cast<size_t>(use.treatment)], use.how.empty() ? "" : ": ",
+                            use.how.c_str());
+        ImGui::Unindent();
+    }
+}
+
+}  // namespace
+
+PanelEdits draw_side_panel(ViewerModel& model) {
+    PanelEdits edits;
+    if (!model.has_scene()) return edits;
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float unit = ImGui::GetFontSize();
+    const float width = std::min(20 * unit, display.x - 2 * unit);
+    ImGui::SetNextWindowPos({display.x - width - unit, unit});
+    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, std::max(display.y - 4 * unit, 4 * unit)});
+    ImGui::Begin("panels", nullptr,
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::PushItemWidth(0.55f * width);
+    camera_section(model, edits);
+    light_section(model, edits);
+    render_section(model, edits);
+    display_section(model, edits);
+    scene_section(model, edits);
+    ImGui::PopItemWidth();
+    ImGui::End();
+    return edits;
+}
+
+}  // namespace candela

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+#include "app/viewer/viewer.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+#include "app/picture_file.h"
+#include "app/viewer/panels.h"
+#include "renderer/integrator/aov.h"
+
+namespace candela {
+
+namespace {
+
+constexpr double notice_seconds = 4;
+constexpr double progress_seconds = 0.05;
+
+}  // namespace
+
+Viewer::Viewer(const RenderOptions& options, const GlContext& context, const ViewerOptions& viewer_options)
+    : context_(context), viewer_options_(viewer_options), display_(context) {
+    model_.options = options;
+    model_.display.tone = options.tone;
+    model_.show_interface = viewer_options.interface;
+    size_.pixels = context.framebuffer_extent();
+    size_.points = Vec2(size_.pixels);
+    if (viewer_options.interface) ui_ = std::make_unique<Ui>(context);
+    SessionOptions session_options;
+    session_options.threads = options.threads;
+    session_ = std::make_unique<RenderSession>(session_options);
+    if (!options.scene.empty()) start_load(options, false);
+}
+
+Viewer::~Viewer() = default;
+
+double Viewer::now_s() const {
+    if (viewer_options_.now_s) return viewer_options_.now_s();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void Viewer::notify(std::string line, bool is_error) {
+    model_.notice = std::move(line);
+    model_.notice_is_error = is_error;
+    model_.notice_until_s = is_error ? std::numeric_limits<double>::infinity() : now_s() + notice_seconds;
+    redraws_ = 2;
+}
+
+float Viewer::aspect() const {
+    return static_cast<float>(size_.pixels.x) / static_cast<float>(std::max(size_.pixels.y, 1u));
+}
+
+void Viewer::open(const std::string& path) {
+    // What the command line said of one file says nothing of another.
+    RenderOptions options = model_.options;
+    options.scene = path;
+    options.camera.clear();
+    options.eye = options.target = options.up = std::nullopt;
+    options.scene_index.reset();
+    start_load(options, false);
+}
+
+void Viewer::start_load(RenderOptions options, bool keep_view) {
+    options.resolution = size_.pixels;
+    load_keeps_view_ = keep_view;
+    load_is_environment_ = false;
+    environment_dirty_ = false;
+    load_error_.clear();
+    model_.loading = true;
+    model_.loading_name = file_name(options.scene);
+    loader_.start([options](const SceneLoader::Progress& progress, const std::atomic<bool>* cancel) {
+        return LoadedScene{options, prepare_render(options, progress, cancel)};
+    });
+}
+
+// A dropped environment is read first, one that is turned or scaled only placed anew.
+void Viewer::start_environment_change() {
+    const std::string read_from = std::exchange(dropped_environment_, {});
+    RenderOptions options = model_.options;
+    if (!read_from.empty()) {
+        options.hdri = read_from;
+        options.sky.reset();
+        model_.loading = true;
+        model_.loading_name = file_name(read_from);
+    }
+    environment_dirty_ = false;
+    load_is_environment_ = true;
+    loader_.start([options, job = model_.job, read = !read_from.empty()](const SceneLoader::Progress& progress,
+                                                                         const std::atomic<bool>*) {
+        LoadedScene out{options, job};
+        progress("environment", 0);
+        if (read) out.job.environment = read_environment(options);
+        out.job.world = with_environment(job.world, out.job.environment, options);
+        return out;
+    });
+}
+
+void Viewer::take_loaded() {
+    std::optional<SceneLoader::Result> result = loader_.take();
+    if (!result) return;
+    model_.loading = false;
+    redraws_ = 2;
+    if (!result->scene) {
+        load_error_ = result->error;
+        load_status_ = result->status;
+        notify(result->error, true);
+        return;
+    }
+
+    RenderJob& job = result->scene->job;
+    if (load_is_environment_) {
+        model_.job.world = job.world;
+        model_.job.environment = job.environment;
+        model_.options.hdri = result->scene->options.hdri;
+        model_.options.sky = result->scene->options.sky;
+        dirty_ = true;
+        return;
+    }
+
+    // A new scene: its camera unless the person's view is to stay. The pivot is what the middle of the picture shows.
+    model_.options = result->scene->options;
+    model_.job = std::move(job);
+    if (!load_keeps_view_) {
+        const Camera& camera = model_.job.request.view.camera;
+        const World& world = *model_.job.world;
+        model_.view = view_of(camera, world.bounds);
+        const bool framed = !model_.options.eye && model_.options.camera.empty() && world.scene->cameras.empty();
+        if (framed) {
+            model_.view.pivot = world.bounds.center();
+        } else if (model_.options.target) {
+            model_.view.pivot = *model_.options.target;
+        } else if (const std::optional<Vec3> middle = pick(Vec2(0.5f))) {
+            model_.view.pivot = *middle;
+        }
+        next_camera_ = world.scene->cameras.empty() ? 0 : 1;
+    }
+    if (model_.notice_is_error) model_.notice.clear();
+    dirty_ = true;
+}
+
+void Viewer::submit() {
+    dirty_ = false;
+    if (!model_.has_scene() || size_.pixels.x == 0 || size_.pixels.y == 0) return;
+    RenderRequest& request = model_.job.request;
+    request.world = model_.job.world;
+    request.view.camera = model_.view.camera;
+    request.view.extent = glm::min(size_.pixels, Vec2u(65535));
+    request.settings = model_.options.integrator;
+    // A window goes on until the person has seen enough.
+    const RenderOptions& options = model_.options;
+    if (!options.spp && viewer_options_.interface) request.max_spp = std::numeric_limits<uint32_t>::max();
+    session_->submit(request);
+}
+
+void Viewer::take_frame() {
+    if (!model_.has_scene()) return;
+    const bool was_done = model_.status.done;
+    model_.status = session_->status();
+    if (model_.status.done && !was_done) redraws_ = std::max(redraws_, 1);
+    if (!model_.status.error.empty() && model_.notice != model_.status.error) notify(model_.status.error, true);
+    frame_ = session_->latest();
+    if (frame_ == nullptr) return;
+    const uint64_t samples = frame_->statistics.total_samples;
+    if (frame_->epoch == shown_epoch_ && samples == shown_samples_) return;
+    shown_epoch_ = frame_->epoch;
+    shown_samples_ = samples;
+    model_.film = frame_->statistics;
+    model_.frame_extent = {frame_->image.width(), frame_->image.height()};
+    display_.upload(*frame_);
+    redraws_ = std::max(redraws_, 1);
+}
+
+bool Viewer::update() {
+    take_loaded();
+    if (environment_dirty_ && !loader_.busy() && model_.has_scene()) start_environment_change();
+    if (dirty_) submit();
+    take_frame();
+
+    // Progress moves and notices go away by themselves.
+    const double now = now_s();
+    if (model_.loading && now - last_progress_s_ > progress_seconds) {
+        model_.loading_state = loader_.state();
+        last_progress_s_ = now;
+        redraws_ = std::max(redraws_, 1);
+    }
+    if (!model_.notice.empty() && now > model_.notice_until_s) {
+        model_.notice.clear();
+        redraws_ = 1;
+    }
+    return redraws_ > 0;
+}
+
+void Viewer::draw() {
+    redraws_ = std::max(redraws_ - 1, 0);
+    display_.draw(model_.display);
+    if (ui_ == nullptr) return;
+    ui_->begin_frame(now_s());
+    PanelEdits edits;
+    if (model_.show_interface) {
+        draw_status_line(model_);
+        if (model_.loading) draw_loading_bar(model_);
+        if (!model_.has_scene() && !model_.loading) draw_welcome(model_);
+        if (model_.show_statistics) draw_statistics(model_);
+        if (model_.show_panels) edits = draw_side_panel(model_);
+        if (model_.show_help) draw_help();
+        if (!model_.notice.empty() && draw_notice(model_)) {
+            model_.notice.clear();
+            redraws_ = 2;
+        }
+    }
+    ui_->end_frame_and_draw();
+    apply(edits);
+}
+
+void Viewer::apply(const PanelEdits& edits) {
+    if (edits.view || edits.settings) dirty_ = true;
+    if (edits.environment) environment_dirty_ = true;
+    if (edits.toggle_pause) toggle_pause();
+    if (edits.frame_all) frame_everything();
+    if (edits.camera) show_file_camera(*edits.camera);
+    if (edits.scene) {
+        RenderOptions options = model_.options;
+        options.scene = model_.job.scene_path;
+        options.scene_index = edits.scene;
+        start_load(options, false);
+    }
+    if (edits.view || edits.settings || edits.environment || edits.tone || edits.toggle_pause) redraws_ = 2;
+}
+
+bool Viewer::finished() const {
+    if (loader_.busy() || dirty_ || environment_dirty_) return false;
+    return !model_.has_scene() || model_.status.done;
+}
+
+double Viewer::seconds_until_update() const {
+    if (redraws_ > 0 || dirty_) return 0;
+    if (loader_.busy()) return 0.02;
+    if (model_.has_scene() && !model_.status.done && !model_.status.paused) return 0.008;
+    return 0.25;
+}
+
+std::string Viewer::title() const {
+    return model_.has_scene() ? "candela - " + file_name(model_.job.scene_path) : "candela";
+}
+
+void Viewer::save(const std::string& path) const {
+    if (frame_ == nullptr)
+        throw CommandError(ExitStatus::unwritable_output, path + ": there is no picture to save yet");
+    const bool png = extension_of(path) == ".png";
+    save_picture(path, *frame_, png ? model_.display.tone : ToneSettings{}, model_.job.request.settings,
+                 picture_header(model_.options.command, model_.job.request));
+}
+
+}  // namespace candela

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// The viewer without a window: input events in, a drawn framebuffer out. The window's loop and the off-screen commands
+// and tests drive the same object.
+#pragma once
+
+#include "app/viewer/input.h"
+#include "app/viewer/ui.h"
+#include "app/viewer/viewer_model.h"
+
+namespace candela {
+
+struct ViewerOptions {
+    bool interface = true;          // false: nothing but the picture is ever drawn
+    std::function<double()> now_s;  // a clock; empty: the steady one
+};
+
+class Viewer {
+  public:
+    // Starts to load options.scene (empty: nothing). The OpenGL context must be current, here and in every call, and
+    // outlive the viewer. Throws GlError.
+    Viewer(const RenderOptions& options, const GlContext& context, const ViewerOptions& viewer_options = {});
+    ~Viewer();  // stops and joins everything
+    Viewer(const Viewer&) = delete;
+    Viewer& operator=(const Viewer&) = delete;
+
+    void handle(const InputEvent& event);
+    // Takes in what loader and session have done, and submits what was edited; true where the picture should be drawn
+    // again.
+    bool update();
+    void draw();
+
+    // How long nothing will change without input.
+    double seconds_until_update() const;
+    bool wants_to_close() const { return close_; }
+    // Nothing loads, and the render has met its limits or cannot.
+    bool finished() const;
+    std::string title() const;
+
+    // Opens a scene in the background; what is shown stays until then, and after a failure.
+    void open(const std::string& path);
+    // Renders, at the path, what is shown: .png as displayed; throws CommandError.
+    void save(const std::string& path) const;
+
+    const ViewerModel& model() const { return model_; }
+    // Why the last scene could not be opened; empty: it could, or it is not known yet.
+    const std::string& load_error() const { return load_error_; }
+    ExitStatus load_status() const { return load_status_; }
+
+  private:
+    enum class DragMode : uint8_t { none, orbit, pan, dolly, environment };
+
+    void start_load(RenderOptions options, bool keep_view);
+    void start_environment_change();
+    void take_loaded();
+    void submit();
+    void take_frame();
+    void apply(const PanelEdits& edits);
+    void notify(std::string line, bool is_error = false);
+
+    void handle_mouse_press(const MousePressed& event);
+    void handle_mouse_move(const Vec2& point);
+    void handle_scroll(float steps);
+    void handle_key(const KeyPressed& event);
+    void handle_drop(const FilesDropped& event);
+    void handle_resize(const WindowResized& event);
+    void handle_view_key(Key key);
+
+    void set_view(const OrbitView& view);
+    void show_file_camera(uint32_t index);
+    void frame_everything();
+    void change_exposure(float ev);
+    void open_neighbour(int step);
+    void save_next();
+    void toggle_background();
+    void toggle_pause();
+    void set_focus_at_cursor();
+
+    float aspect() const;
+    Vec2 film_uv_of(const Vec2& point) const;
+    std::optional<Vec3> pick(const Vec2& film_uv) const;
+    double now_s() const;
+
+    const GlContext& context_;
+    ViewerOptions viewer_options_;
+    ViewerModel model_;
+    Display display_;
+    std::unique_ptr<Ui> ui_;
+    std::unique_ptr<RenderSession> session_;
+    SceneLoader loader_;
+    bool load_keeps_view_ = false, load_is_environment_ = false, environment_dirty_ = false;
+    std::string dropped_environment_;
+    std::string load_error_;
+    ExitStatus load_status_ = ExitStatus::done;
+
+    WindowResized size_;
+    Vec2 cursor_{0};
+    DragMode drag_ = DragMode::none;
+    MouseButton drag_button_ = MouseButton::left;
+    Vec3 drag_anchor_{0};
+    double last_click_s_ = -1;
+    Vec2 last_click_{0};
+    uint32_t next_camera_ = 0;
+
+    const Frame* frame_ = nullptr;
+    uint64_t shown_samples_ = 0, shown_epoch_ = 0;
+    bool dirty_ = false;  // the request has to be submitted
+    int redraws_ = 2;     // panels need two frames to settle
+    double last_progress_s_ = 0;
+    bool close_ = false;
+};
+
+}  // namespace candela

@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: MIT
+// What each input does to the view, the picture and the files.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/picture_file.h"
+#include "app/viewer/viewer.h"
+#include "renderer/integrator/aov.h"
+
+namespace candela {
+
+namespace {
+
+constexpr double double_click_s = 0.4;
+constexpr float double_click_points = 6;
+constexpr float dolly_per_step = 0.88f;
+constexpr float exposure_step_ev = 0.25f;
+
+bool is_scene_file(const std::string& path) {
+    const std::string extension = extension_of(path);
+    return extension == ".gltf" || extension == ".glb";
+}
+
+bool is_environment_file(const std::string& path) {
+    const std::string extension = extension_of(path);
+    return extension == ".hdr" || extension == ".exr";
+}
+
+}  // namespace
+
+void Viewer::handle(const InputEvent& event) {
+    if (ui_ != nullptr) ui_->handle(event);
+    const bool panel_had_mouse = ui_ != nullptr && ui_->wants_mouse();
+    if (const auto* moved = std::get_if<MouseMoved>(&event)) {
+        handle_mouse_move(moved->point);
+        // A pointer over the picture changes nothing to draw.
+        if (panel_had_mouse || model_.show_panels) redraws_ = std::max(redraws_, 1);
+        return;
+    }
+    redraws_ = 2;
+    if (const auto* press = std::get_if<MousePressed>(&event)) {
+        if (!press->pressed || !panel_had_mouse) handle_mouse_press(*press);
+    } else if (const auto* scroll = std::get_if<Scrolled>(&event)) {
+        if (!panel_had_mouse) handle_scroll(scroll->steps.y);
+    } else if (const auto* key = std::get_if<KeyPressed>(&event)) {
+        if (key->pressed && (ui_ == nullptr || !ui_->wants_keyboard())) handle_key(*key);
+    } else if (const auto* drop = std::get_if<FilesDropped>(&event)) {
+        handle_drop(*drop);
+    } else if (const auto* size = std::get_if<WindowResized>(&event)) {
+        handle_resize(*size);
+    } else if (std::get_if<CloseRequested>(&event) != nullptr) {
+        close_ = true;
+    }
+}
+
+Vec2 Viewer::film_uv_of(const Vec2& point) const {
+    return point / glm::max(size_.points, Vec2(1));
+}
+
+std::optional<Vec3> Viewer::pick(const Vec2& film_uv) const {
+    if (!model_.has_scene()) return std::nullopt;
+    const FirstHit hit =
+        trace_first_hit(*model_.job.world, {model_.view.camera, glm::max(size_.pixels, Vec2u(1))}, film_uv);
+    if (!hit.hit) return std::nullopt;
+    return hit.position;
+}
+
+void Viewer::set_view(const OrbitView& view) {
+    const Mat4& pose = view.camera.world_from_camera;
+    for (int column = 0; column < 4; ++column) {
+        if (!is_finite(Vec3(pose[column]))) return;
+    }
+    if (view == model_.view) return;
+    model_.view = view;
+    dirty_ = true;
+}
+
+void Viewer::handle_mouse_press(const MousePressed& event) {
+    if (!event.pressed) {
+        if (event.button == drag_button_) drag_ = DragMode::none;
+        return;
+    }
+    if (!model_.has_scene() || drag_ != DragMode::none) return;
+    drag_button_ = event.button;
+    const Modifiers& modifiers = event.modifiers;
+    if (event.button == MouseButton::middle) {
+        drag_ = DragMode::pan;
+    } else if (event.button == MouseButton::right) {
+        drag_ = modifiers.shift ? DragMode::environment : DragMode::dolly;
+        if (drag_ == DragMode::environment && model_.job.environment == nullptr) {
+            notify("there is no environment to turn; drop an .hdr or .exr file");
+        }
+        const Vec2 uv = film_uv_of(cursor_);
+        drag_anchor_ = pick(uv).value_or(point_at_pivot_distance(model_.view, aspect(), uv));
+    } else if (modifiers.ctrl && modifiers.shift) {
+        set_focus_at_cursor();
+    } else {
+        // A second click soon after, at the same place, re-centres.
+        const double now = now_s();
+        const bool twice =
+            now - last_click_s_ < double_click_s && glm::distance(cursor_, last_click_) < double_click_points;
+        last_click_s_ = twice ? -1 : now;
+        last_click_ = cursor_;
+        if (twice) {
+            if (const std::optional<Vec3> point = pick(film_uv_of(cursor_))) set_view(recentre(model_.view, *point));
+            return;
+        }
+        drag_ = modifiers.shift ? DragMode::pan : DragMode::orbit;
+    }
+}
+
+void Viewer::handle_mouse_move(const Vec2& point) {
+    const Vec2 drag = (point - cursor_) / std::max(size_.points.y, 1.0f);
+    cursor_ = point;
+    switch (drag_) {
+        case DragMode::none:
+            break;
+        case DragMode::orbit:
+            set_view(orbit(model_.view, drag));
+            break;
+        case DragMode::pan:
+            set_view(pan(model_.view, drag));
+            break;
+        case DragMode::dolly:
+            set_view(dolly(model_.view, drag_anchor_, std::exp2(3 * drag.y), aspect()));
+            break;
+        case DragMode::environment:
+            if (model_.job.environment == nullptr) break;
+            model_.options.hdri_rotation_degrees =
+                std::remainder(model_.options.hdri_rotation_degrees + 180 * drag.x, 360.0f);
+            environment_dirty_ = true;
+            break;
+    }
+}
+
+void Viewer::handle_scroll(float steps) {
+    if (!model_.has_scene() || steps == 0) return;
+    const Vec2 uv = film_uv_of(cursor_);
+    const Vec3 anchor = pick(uv).value_or(point_at_pivot_distance(model_.view, aspect(), uv));
+    set_view(dolly(model_.view, anchor, std::pow(dolly_per_step, steps), aspect()));
+}
+
+void Viewer::handle_key(const KeyPressed& event) {
+    const Modifiers& modifiers = event.modifiers;
+    if (modifiers.ctrl) {
+        if (event.key == Key::q) close_ = true;
+        if (event.key == Key::s) save_next();
+        return;
+    }
+    if (modifiers.alt) return;
+    switch (event.key) {
+        case Key::home:
+        case Key::enter:
+            frame_everything();
+            return;
+        case Key::f5:
+            if (!model_.options.scene.empty()) start_load(model_.options, model_.has_scene());
+            return;
+        case Key::f12:
+            save_next();
+            return;
+        case Key::tab:
+            model_.show_panels = !model_.show_panels;
+            return;
+        case Key::escape:
+            model_.show_help = false;
+            if (model_.notice_is_error) model_.notice.clear();
+            return;
+        case Key::left:
+            open_neighbour(-1);
+            return;
+        case Key::right:
+            open_neighbour(1);
+            return;
+        case Key::e:
+            change_exposure(modifiers.shift ? -exposure_step_ev : exposure_step_ev);
+            return;
+        case Key::h:
+            model_.show_help = !model_.show_help;
+            return;
+        case Key::z:
+            model_.show_statistics = !model_.show_statistics;
+            return;
+        case Key::t:
+            model_.display.tone.curve = static_cast<ToneCurve>((static_cast<int>(model_.display.tone.curve) + 1) % 4);
+            notify(fmt::format("tone curve {}", name_of(model_.display.tone.curve)));
+            return;
+        case Key::p:
+            toggle_pause();
+            return;
+        case Key::j:
+            toggle_background();
+            return;
+        default:
+            if (!modifiers.shift) handle_view_key(event.key);
+    }
+}
+
+void Viewer::handle_view_key(Key key) {
+    if (!model_.has_scene()) return;
+    switch (key) {
+        case Key::digit_1:
+            set_view(look_from(model_.view, AxisView::front));
+            break;
+        case Key::digit_3:
+            set_view(look_from(model_.view, AxisView::right));
+            break;
+        case Key::digit_7:
+            set_view(look_from(model_.view, AxisView::top));
+            break;
+        case Key::digit_9:
+            set_view(look_from(model_.view, AxisView::isometric));
+            break;
+        case Key::digit_5:
+            set_view(toggle_orthographic(model_.view));
+            break;
+        case Key::c: {
+            const size_t count = model_.job.world->scene->cameras.size();
+            if (count == 0) {
+                notify("the file has no cameras");
+            } else {
+                show_file_camera(next_camera_ % static_cast<uint32_t>(count));
+            }
+            break;
+        }
+        default:
+            break;
+    }
+}
+
+void Viewer::show_file_camera(uint32_t index) {
+    const CameraInstance& instance = model_.job.world->scene->cameras[index];
+    OrbitView view = view_of(instance.camera, model_.job.world->bounds);
+    set_view(view);
+    if (const std::optional<Vec3> middle = pick(Vec2(0.5f))) {
+        view.pivot = *middle;
+        set_view(view);
+    }
+    next_camera_ = index + 1;
+    notify(instance.name.empty() ? fmt::format("camera {}", index) : "camera " + instance.name);
+}
+
+void Viewer::frame_everything() {
+    if (model_.has_scene()) set_view(frame_all(model_.view, model_.job.world->bounds, aspect()));
+}
+
+void Viewer::change_exposure(float ev) {
+    float& exposure = model_.display.tone.exposure_ev;
+    exposure = std::clamp(exposure + ev, -20.0f, 20.0f);
+}
+
+void Viewer::toggle_pause() {
+    if (model_.status.paused) {
+        session_->resume();
+    } else {
+        session_->pause();
+    }
+}
+
+// The environment as background, or plain grey behind what it lights.
+void Viewer::toggle_background() {
+    IntegratorSettings& settings = model_.options.integrator;
+    if (settings.background == BackgroundKind::environment) {
+        settings.background = BackgroundKind::color;
+        settings.background_color = Vec3(0.05f);
+    } else {
+        settings.background = BackgroundKind::environment;
+    }
+    dirty_ = true;
+}
+
+void Viewer::set_focus_at_cursor() {
+    const std::optional<Vec3> point = pick(film_uv_of(cursor_));
+    if (!point) return;
+    OrbitView view = model_.view;
+    const float distance = glm::dot(*point - view.camera.position(), view.camera.forward());
+    if (!(distance > 0)) return;
+    view.camera.focus_distance_m = distance;
+    set_view(view);
+    notify(fmt::format("focus at {:.3g} m{}", distance,
+                       view.camera.aperture_diameter_m > 0 ? "" : ": shows with an aperture (Tab)"));
+}
+
+void Viewer::handle_drop(const FilesDropped& event) {
+    if (event.paths.empty()) return;
+    const std::string& path = event.paths.front();
+    if (is_scene_file(path)) {
+        open(path);
+    } else if (is_environment_file(path)) {
+        if (!model_.has_scene()) {
+            model_.options.hdri = path;
+            notify(file_name(path) + " will light the next scene");
+            return;
+        }
+        dropped_environment_ = path;
+        environment_dirty_ = true;
+    } else {
+        notify(path + ": is none of .gltf, .glb, .hdr, .exr", true);
+    }
+}
+
+void Viewer::handle_resize(const WindowResized& event) {
+    const bool changed = event.pixels != size_.pixels;
+    size_ = event;
+    if (changed) dirty_ = true;
+}
+
+void Viewer::open_neighbour(int step) {
+    if (!model_.has_scene()) return;
+    const std::filesystem::path now = model_.job.scene_path;
+    const std::filesystem::path folder = now.parent_path().empty() ? std::filesystem::path(".") : now.parent_path();
+    std::vector<std::filesystem::path> files;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+        if (is_scene_file(entry.path().string())) files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    const auto found =
+        std::find_if(files.begin(), files.end(), [&](const auto& file) { return file.filename() == now.filename(); });
+    if (found == files.end() || files.size() < 2) {
+        notify("there is no other scene in this folder");
+        return;
+    }
+    const auto count = static_cast<std::ptrdiff_t>(files.size());
+    open(files[static_cast<size_t>(((found - files.begin()) + step + count) % count)].string());
+}
+
+// candela-NAME-001.png in the current folder, and the linear radiance beside it.
+void Viewer::save_next() {
+    if (!model_.has_scene()) return;
+    const std::string stem = "candela-" + std::filesystem::path(model_.job.scene_path).stem().string();
+    std::string name;
+    for (int number = 1; name.empty(); ++number) {
+        const std::string candidate = fmt::format("{}-{:03}", stem, number);
+        std::error_code error;
+        if (!std::filesystem::exists(candidate + ".png", error) && !std::filesystem::exists(candidate + ".exr", error))
+            name = candidate;
+    }
+    try {
+        save(name + ".png");
+        save(name + ".exr");
+        notify(fmt::format("saved {0}.png and {0}.exr", name));
+    } catch (const CommandError& error) {
+        notify(error.what(), true);
+    }
+}
+
+}  // namespace candela

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Everything that the panels show and edit, as plain data.
+#pragma once
+
+#include "app/gl/display.h"
+#include "app/render_job.h"
+#include "app/viewer/scene_loader.h"
+#include "app/viewer/view_control.h"
+
+namespace candela {
+
+struct ViewerModel {
+    RenderOptions options;  // of the scene shown
+    RenderJob job;          // its world is null before the first scene
+    OrbitView view;
+    DisplaySettings display;
+
+    bool show_interface = true;  // false: only the picture
+    bool show_panels = false;
+    bool show_help = false;
+    bool show_statistics = false;
+
+    // What the session and the loader say, as of the last update.
+    SessionStatus status;
+    FilmStatistics film;
+    Vec2u frame_extent{0};
+    bool loading = false;
+    std::string loading_name;
+    SceneLoader::State loading_state;
+
+    // A line over the picture, until a time or, for an error, until it is dismissed.
+    std::string notice;
+    bool notice_is_error = false;
+    double notice_until_s = 0;
+
+    bool has_scene() const { return job.world != nullptr; }
+};
+
+// What a panel has changed.
+struct PanelEdits {
+    bool view = false;         // the camera
+    bool settings = false;     // how it is rendered: restarts
+    bool environment = false;  // a new world off-thread
+    bool tone = false;         // only drawn anew
+    bool toggle_pause = false;
+    bool frame_all = false;
+    std::optional<uint32_t> camera;  // of the file
+    std::optional<uint32_t> scene;   // of the file
+};
+
+// "HotelRoom.glb"
+inline std::string file_name(const std::string& path) {
+    return std::filesystem::path(path).filename().string();
+}
+
+}  // namespace candela
