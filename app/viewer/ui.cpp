@@ -26,8 +26,8 @@ void apply_theme(float scale) {
     style.FramePadding = {8, 4};
     style.ItemSpacing = {8, 8};
     style.ScrollbarSize = 12;
-    const ImVec4 accent(0.91f, 0.64f, 0.24f, 1.0f), panel(0.09f, 0.09f, 0.10f, 0.90f), field(0.18f, 0.18f, 0.20f, 1.0f),
-        field_active(0.26f, 0.26f, 0.28f, 1.0f);
+    const ImVec4 accent(0.91f, 0.64f, 0.24f, 1.0f), panel(0.09f, 0.09f, 0.10f, 0.94f), field(0.22f, 0.22f, 0.24f, 1.0f),
+        field_active(0.30f, 0.30f, 0.33f, 1.0f);
     ImVec4* colors = style.Colors;
     colors[ImGuiCol_WindowBg] = colors[ImGuiCol_PopupBg] = panel;
     colors[ImGuiCol_FrameBg] = colors[ImGuiCol_Button] = colors[ImGuiCol_Header] = field;

@@ -48,9 +48,12 @@ struct PanelEdits {
     std::optional<uint32_t> scene;   // of the file
 };
 
-// "HotelRoom.glb"
+// "HotelRoom.glb"; with its folder where the name alone says nothing, as in "HotelRoom/scene.glb".
 inline std::string file_name(const std::string& path) {
-    return std::filesystem::path(path).filename().string();
+    const std::filesystem::path file(path);
+    const std::string folder = file.parent_path().filename().string();
+    return file.stem() == "scene" && !folder.empty() ? folder + "/" + file.filename().string()
+                                                     : file.filename().string();
 }
 
 }  // namespace candela

@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: MIT
+// The whole viewer off-screen: events in, pictures out.
+#include "app/viewer/viewer.h"
+
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include "app/gl/osmesa_context.h"
+
+namespace candela {
+namespace {
+
+constexpr Vec2u extent(200, 150);
+
+RenderOptions options_for(const std::string& scene, uint32_t spp = 4) {
+    RenderOptions options;
+    options.scene = scene;
+    options.spp = spp;
+    options.threads = 2;
+    return options;
+}
+
+// Off-screen, on a clock that the test moves.
+class ViewerTest : public testing::Test {
+  protected:
+    void start(const RenderOptions& options) {
+        context_ = std::make_unique<OsmesaContext>(extent);
+        viewer_ = std::make_unique<Viewer>(options, *context_, ViewerOptions{true, [this] { return now_s_; }});
+        finish();
+    }
+    void TearDown() override { viewer_.reset(); }
+
+    // Until nothing is left to load or to render.
+    void finish() {
+        const auto begin = std::chrono::steady_clock::now();
+        do {
+            viewer_->update();
+            viewer_->draw();
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            ASSERT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60))
+                << "the viewer does not settle";
+        } while (!viewer_->finished());
+        for (int i = 0; i < 3; ++i) {
+            now_s_ += 0.1;
+            viewer_->update();
+            viewer_->draw();
+        }
+    }
+    ImageRgba8 picture() {
+        viewer_->update();
+        viewer_->draw();
+        return read_back(*context_);
+    }
+    void press(Key key, Modifiers modifiers = {}) {
+        viewer_->handle(KeyPressed{key, true, modifiers});
+        viewer_->handle(KeyPressed{key, false, modifiers});
+    }
+    void drag(MouseButton button, Vec2 from, Vec2 to, Modifiers modifiers = {}) {
+        viewer_->handle(MouseMoved{from});
+        viewer_->update();
+        viewer_->draw();
+        viewer_->handle(MousePressed{button, true, modifiers});
+        viewer_->handle(MouseMoved{(from + to) / 2.0f});
+        viewer_->handle(MouseMoved{to});
+        viewer_->handle(MousePressed{button, false, modifiers});
+    }
+    void click(Vec2 at) { drag(MouseButton::left, at, at); }
+    const ViewerModel& model() const { return viewer_->model(); }
+
+    double now_s_ = 100;
+    std::unique_ptr<OsmesaContext> context_;
+    std::unique_ptr<Viewer> viewer_;
+};
+
+// Mean absolute difference of 8-bit values above the status line.
+double difference(const ImageRgba8& a, const ImageRgba8& b) {
+    double sum = 0;
+    const int rows = a.height() - 30;
+    for (int y = 0; y < rows; ++y) {
+        for (int x = 0; x < a.width(); ++x) {
+            for (int c = 0; c < 3; ++c)
+                sum += std::abs(a(x, y)[c] - b(x, y)[c]);
+        }
+    }
+    return sum / (3.0 * rows * a.width());
+}
+
+TEST_F(ViewerTest, OpensRendersAndIsIdle) {
+    start(options_for("assets/cornell_box.glb"));
+    ASSERT_TRUE(model().has_scene());
+    EXPECT_EQ(model().status.spp, 4u);
+    EXPECT_EQ(viewer_->title(), "candela - cornell_box.glb");
+    EXPECT_GT(viewer_->seconds_until_update(), 0.1) << "idle, but not at rest";
+    EXPECT_FALSE(viewer_->update());
+}
+
+TEST_F(ViewerTest, AnOrbitedViewReturnsToTheSamePictureToTheBit) {
+    start(options_for("assets/cornell_box.glb"));
+    const OrbitView view = model().view;
+    const ImageRgba8 before = picture();
+    drag(MouseButton::left, {100, 60}, {140, 60});
+    finish();
+    EXPECT_GT(difference(before, picture()), 2.0);
+    press(Key::c);
+    finish();
+    now_s_ += 10;
+    EXPECT_EQ(view.camera, model().view.camera);
+    EXPECT_EQ(difference(before, picture()), 0.0);
+}
+
+TEST_F(ViewerTest, TheWheelComesNearerToTheCursorAndBack) {
+    start(options_for("assets/cornell_box.glb"));
+    const Vec3 eye = model().view.camera.position();
+    viewer_->handle(MouseMoved{{60, 80}});
+    for (int i = 0; i < 3; ++i)
+        viewer_->handle(Scrolled{{0, 1}});
+    EXPECT_GT(glm::distance(eye, model().view.camera.position()), 0.05f);
+    for (int i = 0; i < 3; ++i)
+        viewer_->handle(Scrolled{{0, -1}});
+    EXPECT_LT(glm::distance(eye, model().view.camera.position()), 1e-3f);
+}
+
+TEST_F(ViewerTest, ADoubleClickRecentresAndASlowOneDoesNot) {
+    start(options_for("assets/cornell_box.glb"));
+    const OrbitView view = model().view;
+    click({60, 90});
+    now_s_ += 2;
+    click({60, 90});
+    EXPECT_EQ(model().view, view);
+    now_s_ += 2;
+    click({60, 90});
+    now_s_ += 0.1;
+    click({60, 90});
+    EXPECT_NE(model().view, view);
+    const Vec3 seen = project(model().view.camera, 200.0f / 150, model().view.pivot);
+    EXPECT_NEAR(seen.x, 0.5f, 1e-3f);
+    EXPECT_NEAR(seen.y, 0.5f, 1e-3f);
+}
+
+TEST_F(ViewerTest, ExposureAndToneCurveRedrawWithoutARestart) {
+    start(options_for("assets/cornell_box.glb"));
+    const uint64_t epoch = model().status.epoch;
+    const ImageRgba8 before = picture();
+    press(Key::e);
+    EXPECT_GT(difference(before, picture()), 1.0);
+    press(Key::e, {.shift = true});
+    EXPECT_EQ(difference(before, picture()), 0.0);
+    press(Key::t);
+    EXPECT_GT(difference(before, picture()), 1.0);
+    finish();
+    EXPECT_EQ(model().status.epoch, epoch);
+}
+
+TEST_F(ViewerTest, ASceneThatFailsShowsWhyAndTheOldOneStays) {
+    const std::filesystem::path broken = std::filesystem::temp_directory_path() / "candela viewer broken.gltf";
+    std::ofstream(broken) << "{ this is no JSON";
+    start(options_for("assets/cornell_box.glb"));
+    const ImageRgba8 before = picture();
+    viewer_->handle(FilesDropped{{broken.string()}, {}});
+    finish();
+    std::filesystem::remove(broken);
+    EXPECT_TRUE(model().has_scene());
+    EXPECT_EQ(viewer_->title(), "candela - cornell_box.glb");
+    EXPECT_TRUE(model().notice_is_error);
+    EXPECT_NE(model().notice.find("broken.gltf"), std::string::npos) << model().notice;
+    EXPECT_EQ(viewer_->load_status(), ExitStatus::unreadable_scene);
+    EXPECT_GT(difference(before, picture()), 0.5) << "the notice is not seen";
+    press(Key::escape);
+    EXPECT_EQ(difference(before, picture()), 0.0);
+}
+
+TEST_F(ViewerTest, ADroppedSceneReplacesTheOld) {
+    start(options_for("assets/cornell_box.glb"));
+    const ImageRgba8 before = picture();
+    viewer_->handle(FilesDropped{{"assets/veach_plates.glb"}, {}});
+    EXPECT_TRUE(model().loading);
+    finish();
+    EXPECT_EQ(viewer_->title(), "candela - veach_plates.glb");
+    EXPECT_GT(difference(before, picture()), 5.0);
+}
+
+TEST_F(ViewerTest, TheNewestOfSeveralDroppedScenesWins) {
+    start(options_for("assets/cornell_box.glb"));
+    for (const char* scene : {"assets/veach_plates.glb", "assets/many_lights.glb", "assets/glass_slab.glb"})
+        viewer_->handle(FilesDropped{{scene}, {}});
+    finish();
+    EXPECT_EQ(viewer_->title(), "candela - glass_slab.glb");
+}
+
+TEST_F(ViewerTest, ADroppedEnvironmentLightsTheScene) {
+    start(options_for("assets/furnace_sphere.glb"));
+    viewer_->handle(FilesDropped{{"assets/sky.hdr"}, {}});
+    finish();
+    ASSERT_NE(model().job.environment, nullptr);
+    EXPECT_GT(model().job.environment->radiance.width(), 1);
+    EXPECT_TRUE(model().job.world->lights.environment);
+    const ImageRgba8 before = picture();
+    drag(MouseButton::right, {50, 50}, {120, 50}, {.shift = true});
+    finish();
+    EXPECT_NE(model().options.hdri_rotation_degrees, 0);
+    EXPECT_GT(difference(before, picture()), 1.0) << "a turned environment looks the same";
+}
+
+TEST_F(ViewerTest, WhatIsNoSceneIsRefusedByName) {
+    start(options_for("assets/cornell_box.glb"));
+    viewer_->handle(FilesDropped{{"README.md"}, {}});
+    EXPECT_TRUE(model().notice_is_error);
+    EXPECT_FALSE(model().loading);
+}
+
+TEST_F(ViewerTest, AResizedWindowGetsAPictureOfItsSize) {
+    start(options_for("assets/cornell_box.glb"));
+    context_->resize({120, 90});
+    viewer_->handle(WindowResized{{120, 90}, {120, 90}, 1});
+    finish();
+    EXPECT_EQ(model().frame_extent, Vec2u(120, 90));
+    EXPECT_EQ(model().status.spp, 4u);
+}
+
+TEST_F(ViewerTest, ATinyAndAMinimisedWindowAreSurvived) {
+    start(options_for("assets/cornell_box.glb"));
+    press(Key::tab);
+    press(Key::z);
+    press(Key::h);
+    context_->resize({8, 8});
+    viewer_->handle(WindowResized{{8, 8}, {8, 8}, 1});
+    finish();
+    viewer_->handle(WindowResized{{0, 0}, {0, 0}, 1});
+    for (int i = 0; i < 5; ++i)
+        viewer_->update();
+    viewer_->handle(WindowResized{{8, 8}, {8, 8}, 1});
+    finish();
+    EXPECT_EQ(model().frame_extent, Vec2u(8, 8));
+}
+
+TEST_F(ViewerTest, HighResolutionScreensGetSharperPanelsOfTheSameSize) {
+    start(options_for("assets/cornell_box.glb"));
+    context_->resize({400, 300});
+    viewer_->handle(WindowResized{{200, 150}, {400, 300}, 2});
+    finish();
+    EXPECT_EQ(model().frame_extent, Vec2u(400, 300));
+    // The status line is 27 points high: 54 pixels.
+    const ImageRgba8 drawn = picture();
+    EXPECT_EQ(drawn(398, 298), drawn(398, 250));
+    EXPECT_NE(drawn(398, 298), drawn(398, 240));
+}
+
+TEST_F(ViewerTest, PanelsHelpAndStatisticsCanBeShownAndHidden) {
+    start(options_for("assets/cornell_box.glb"));
+    const ImageRgba8 before = picture();
+    for (const Key key : {Key::h, Key::z, Key::tab}) {
+        press(key);
+        for (int i = 0; i < 3; ++i)
+            picture();
+        EXPECT_GT(difference(before, picture()), 2.0);
+        press(key);
+        for (int i = 0; i < 3; ++i)
+            picture();
+        EXPECT_EQ(difference(before, picture()), 0.0);
+    }
+}
+
+TEST_F(ViewerTest, DraggingOnAPanelDoesNotTurnTheScene) {
+    start(options_for("assets/cornell_box.glb"));
+    press(Key::tab);
+    for (int i = 0; i < 3; ++i)
+        picture();
+    const OrbitView view = model().view;
+    drag(MouseButton::left, {150, 40}, {150, 80});
+    EXPECT_EQ(model().view, view);
+}
+
+TEST_F(ViewerTest, PauseHoldsAndGoesOn) {
+    RenderOptions options = options_for("assets/cornell_box.glb", 1 << 20);
+    context_ = std::make_unique<OsmesaContext>(extent);
+    viewer_ = std::make_unique<Viewer>(options, *context_, ViewerOptions{true, [this] { return now_s_; }});
+    const auto spin_until = [&](const auto& condition) {
+        for (int i = 0; i < 20000 && !condition(); ++i) {
+            viewer_->update();
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return condition();
+    };
+    ASSERT_TRUE(spin_until([&] { return model().status.spp >= 2; }));
+    press(Key::p);
+    ASSERT_TRUE(spin_until([&] { return model().status.paused; }));
+    const uint32_t spp = model().status.spp;
+    for (int i = 0; i < 20; ++i) {
+        viewer_->update();
+        viewer_->draw();
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    EXPECT_LE(model().status.spp, spp + 1);
+    EXPECT_GT(viewer_->seconds_until_update(), 0.1);
+    press(Key::p);
+    EXPECT_TRUE(spin_until([&] { return model().status.spp > spp + 2; }));
+}
+
+TEST_F(ViewerTest, SavingWritesBothFilesAndNeverOverwrites) {
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / "candela viewer save";
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    const std::filesystem::path home = std::filesystem::current_path();
+    start(options_for((home / "assets/cornell_box.glb").string()));
+    std::filesystem::current_path(folder);
+    press(Key::s, {.ctrl = true});
+    press(Key::f12);
+    std::filesystem::current_path(home);
+    for (const char* name :
+         {"candela-cornell_box-001.png", "candela-cornell_box-001.exr", "candela-cornell_box-002.png"})
+        EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+    std::filesystem::remove_all(folder);
+}
+
+TEST_F(ViewerTest, CtrlQAndTheCloseButtonQuit) {
+    start(options_for("assets/cornell_box.glb"));
+    EXPECT_FALSE(viewer_->wants_to_close());
+    press(Key::q);
+    EXPECT_FALSE(viewer_->wants_to_close());
+    press(Key::q, {.ctrl = true});
+    EXPECT_TRUE(viewer_->wants_to_close());
+}
+
+TEST_F(ViewerTest, ClosingWhileASceneLoadsJoinsEverything) {
+    start(options_for("assets/cornell_box.glb"));
+    viewer_->handle(FilesDropped{{"assets/many_lights.glb"}, {}});
+    viewer_.reset();
+}
+
+TEST_F(ViewerTest, TheOffScreenPictureIsThatOfTheHeadlessRenderer) {
+    RenderOptions options = options_for("assets/cornell_box.glb", 8);
+    context_ = std::make_unique<OsmesaContext>(extent);
+    viewer_ = std::make_unique<Viewer>(options, *context_, ViewerOptions{false, {}});
+    drag(MouseButton::left, {10, 10}, {50, 30});
+    finish();
+    const ImageRgba8 shown = picture();
+
+    options.resolution = extent;
+    const RenderJob job = prepare_render(
+        options, [](const char*, double) {}, nullptr);
+    SessionOptions session_options;
+    session_options.threads = 1;
+    session_options.publish_frames = false;
+    RenderSession session(session_options);
+    session.submit(job.request);
+    session.wait_until_done();
+    const ImageRgba8 expected = tone_map(session.latest()->image, {});
+    for (size_t i = 0; i < shown.size(); ++i) {
+        for (int c = 0; c < 3; ++c)
+            ASSERT_NEAR(shown.pixels()[i][c], expected.pixels()[i][c], 1) << i;
+    }
+}
+
+}  // namespace
+}  // namespace candela
