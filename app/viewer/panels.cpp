@@ -69,8 +69,10 @@ void draw_status_line(const ViewerModel& model) {
     ImGui::Begin("status", nullptr, (overlay_flags & ~ImGuiWindowFlags_AlwaysAutoResize) | ImGuiWindowFlags_NoInputs);
 
     // What the picture is shown with stands at the right, how far it is at the left.
+    const bool wide = display.x > 50 * unit();
     const std::string right =
-        fmt::format("{} {:+.2f} EV    H help", name_of(model.display.tone.curve), model.display.tone.exposure_ev);
+        wide ? fmt::format("{} {:+.2f} EV    H help", name_of(model.display.tone.curve), model.display.tone.exposure_ev)
+             : "H help";
     const float right_begin = display.x - margin - ImGui::CalcTextSize(right.c_str()).x;
     Line line(right_begin - unit());
     line.start(margin);
@@ -78,11 +80,11 @@ void draw_status_line(const ViewerModel& model) {
         line.item(file_name(model.job.scene_path));
         line.item(fmt::format("{} spp", model.status.spp));
         line.item(clock_text(model.status.render_seconds));
+        if (const char* state = state_words(model)) line.item(state, &accent);
         if (std::isfinite(model.film.relative_error) && model.status.spp > 0) {
             line.item(fmt::format("error {:.2f} %", 100 * model.film.relative_error));
         }
         line.item(fmt::format("{:.2f} Mrays/s", model.status.rays_per_second * 1e-6));
-        if (const char* state = state_words(model)) line.item(state, &accent);
         if (model.job.request.settings.biased()) line.item("biased", &alarm);
         if (model.film.non_finite > 0) line.item(fmt::format("{} samples not finite", model.film.non_finite), &alarm);
         if (!model.job.warnings.empty()) {
