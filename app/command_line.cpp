@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/commands.h"
+#include "app/picture_file.h"
 
 namespace candela {
 
@@ -201,6 +202,12 @@ ExitStatus dispatch(int argc, char** argv) {
     finish_render_options(raw, render);
     if (*render_command) return run_render(render);
     if (*screenshot_command) return run_screenshot(render, with_interface);
+    const std::string extension = extension_of(render.scene);
+    std::error_code error;
+    if (!*view_command && !render.scene.empty() && extension != ".gltf" && extension != ".glb" &&
+        !std::filesystem::exists(render.scene, error)) {
+        throw usage(render.scene + ": is neither a command nor a .gltf or .glb file; see candela --help");
+    }
     return run_view(render);
 }
 

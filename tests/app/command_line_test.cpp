@@ -97,6 +97,33 @@ TEST_F(CommandLine, UnreadableScenesAreThree) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "a.png"));
 }
 
+TEST_F(CommandLine, AScreenshotIsTheRenderedPictureAndItsPanelsLieOverIt) {
+    const std::string options = " assets/cornell_box.glb --resolution 120x90 --spp 4 --quiet -o ";
+    ASSERT_EQ(run("screenshot --no-ui" + options + file("plain.png")).status, 0);
+    ASSERT_EQ(run("screenshot" + options + file("panels.png")).status, 0);
+    ASSERT_EQ(run("render" + options + file("render.png")).status, 0);
+    const ImageRgba32f plain = read_any_as_linear(folder_ / "plain.png"),
+                       panels = read_any_as_linear(folder_ / "panels.png"),
+                       render = read_any_as_linear(folder_ / "render.png");
+    double plain_difference = 0, panel_difference = 0;
+    for (size_t i = 0; i < render.size(); ++i) {
+        plain_difference =
+            std::max(plain_difference, static_cast<double>(std::abs(plain.pixels()[i].g - render.pixels()[i].g)));
+        panel_difference =
+            std::max(panel_difference, static_cast<double>(std::abs(panels.pixels()[i].g - render.pixels()[i].g)));
+    }
+    EXPECT_LT(plain_difference, 0.01);  // one level of 255
+    EXPECT_GT(panel_difference, 0.1);
+}
+
+TEST_F(CommandLine, AScreenshotFailsAsTheContractSays) {
+    EXPECT_EQ(run("screenshot -o " + file("a.exr") + tiny).status, 2);
+    EXPECT_EQ(run("screenshot missing.glb -o " + file("a.png") + tiny).status, 3);
+    EXPECT_EQ(run("screenshot -o " + file("no/such/a.png") + tiny).status, 4);
+    EXPECT_EQ(run("screenshot -o " + file("a.png") + " --resolution 30000x8 --spp 1").status, 4);
+    EXPECT_EQ(run("view missing.glb").status, 3);
+}
+
 TEST_F(CommandLine, UnwritableOutputIsFour) {
     EXPECT_EQ(run("render -o " + file("no/such/a.png") + tiny).status, 4);
     EXPECT_EQ(run("render -o /proc/a.png" + tiny).status, 4);
