@@ -3,6 +3,8 @@
 
 #include <imgui.h>
 
+#include <bit>
+
 #include "shaders/shaders.h"
 
 namespace candela {
@@ -11,14 +13,14 @@ namespace {
 
 // ImGui carries texture names through a pointer.
 ImTextureID texture_id(GLuint name) {
-    return reinterpret_cast<ImTextureID>(static_cast<uintptr_t>(name));
+    return std::bit_cast<ImTextureID>(uintptr_t{name});
 }
 GLuint texture_name(ImTextureID id) {
-    return static_cast<GLuint>(reinterpret_cast<uintptr_t>(id));
+    return static_cast<GLuint>(std::bit_cast<uintptr_t>(id));
 }
 
 const void* byte_offset(size_t bytes) {
-    return reinterpret_cast<const void*>(bytes);
+    return std::bit_cast<const void*>(bytes);
 }
 
 }  // namespace
