@@ -162,8 +162,8 @@ void Viewer::take_frame() {
     frame_ = session_->latest();
     if (frame_ == nullptr) return;
     const uint64_t samples = frame_->statistics.total_samples;
-    if (frame_->epoch == shown_epoch_ && samples == shown_samples_) return;
-    shown_epoch_ = frame_->epoch;
+    if (frame_->epoch == model_.frame_epoch && samples == shown_samples_) return;
+    model_.frame_epoch = frame_->epoch;
     shown_samples_ = samples;
     model_.film = frame_->statistics;
     model_.frame_extent = {frame_->image.width(), frame_->image.height()};

@@ -24,6 +24,7 @@ struct ViewerModel {
     SessionStatus status;
     FilmStatistics film;
     Vec2u frame_extent{0};
+    uint64_t frame_epoch = 0;  // the submit that the frame shown belongs to
     bool loading = false;
     std::string loading_name;
     SceneLoader::State loading_state;

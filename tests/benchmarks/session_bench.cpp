@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "renderer/session/render_session.h"
+#include "tests/benchmarks/percentile.h"
 #include "tests/benchmarks/shared_scenes.h"
 
 namespace candela::bench {
@@ -16,11 +17,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-double percentile(std::vector<double> values, double share) {
-    std::sort(values.begin(), values.end());
-    return values[std::min(values.size() - 1, static_cast<size_t>(share * static_cast<double>(values.size())))];
 }
 
 // The camera turned a little further around the scene with every edit.
