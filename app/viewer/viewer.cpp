@@ -16,6 +16,8 @@ namespace {
 
 constexpr double notice_seconds = 4;
 constexpr double progress_seconds = 0.05;
+// The first picture of an edit is expected within this; to draw the old one again before it would only delay it.
+constexpr double first_frame_seconds = 0.025;
 
 }  // namespace
 
@@ -151,6 +153,7 @@ void Viewer::submit() {
     const RenderOptions& options = model_.options;
     if (!options.spp && viewer_options_.interface) request.max_spp = std::numeric_limits<uint32_t>::max();
     session_->submit(request);
+    if (hold_until_s_ < now_s()) hold_until_s_ = now_s() + first_frame_seconds;
 }
 
 void Viewer::take_frame() {
@@ -168,6 +171,7 @@ void Viewer::take_frame() {
     model_.film = frame_->statistics;
     model_.frame_extent = {frame_->image.width(), frame_->image.height()};
     display_.upload(*frame_);
+    hold_until_s_ = 0;
     redraws_ = std::max(redraws_, 1);
 }
 
@@ -188,7 +192,7 @@ bool Viewer::update() {
         model_.notice.clear();
         redraws_ = 1;
     }
-    return redraws_ > 0;
+    return redraws_ > 0 && now >= hold_until_s_;
 }
 
 void Viewer::draw() {
@@ -234,7 +238,7 @@ bool Viewer::finished() const {
 }
 
 double Viewer::seconds_until_update() const {
-    if (redraws_ > 0 || dirty_) return 0;
+    if (redraws_ > 0 || dirty_) return now_s() < hold_until_s_ ? 0.001 : 0;
     if (loader_.busy()) return 0.02;
     if (model_.has_scene() && !model_.status.done && !model_.status.paused) return 0.008;
     return 0.25;

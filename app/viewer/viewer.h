@@ -105,6 +105,7 @@ class Viewer {
     uint64_t shown_samples_ = 0;
     bool dirty_ = false;  // the request has to be submitted
     int redraws_ = 2;     // panels need two frames to settle
+    double hold_until_s_ = 0;
     double last_progress_s_ = 0;
     bool close_ = false;
 };
