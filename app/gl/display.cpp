@@ -35,9 +35,9 @@ Display::~Display() {
     context_.gl().DeleteVertexArrays(1, &vertex_array_);
 }
 
-void Display::upload(const Frame& frame) {
+bool Display::upload(const Frame& frame) {
     const Vec2u extent(frame.image.width(), frame.image.height());
-    if (extent == extent_ && frame.epoch == epoch_ && frame.statistics.total_samples == total_samples_) return;
+    if (extent == extent_ && frame.serial == serial_) return false;
     const GlFunctions& gl = context_.gl();
     gl.BindTexture(GL_TEXTURE_2D, texture_);
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
@@ -56,8 +56,8 @@ void Display::upload(const Frame& frame) {
                       frame.image.data());
     }
     extent_ = extent;
-    epoch_ = frame.epoch;
-    total_samples_ = frame.statistics.total_samples;
+    serial_ = frame.serial;
+    return true;
 }
 
 void Display::draw(const DisplaySettings& settings) {

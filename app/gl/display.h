@@ -29,8 +29,9 @@ class Display {
     Display(const Display&) = delete;
     Display& operator=(const Display&) = delete;
 
-    // Uploads the frame unless it is the one shown last. Throws GlError where it exceeds the driver's texture size.
-    void upload(const Frame& frame);
+    // Uploads the frame unless its serial is that of the one uploaded last; returns whether it did. Throws GlError
+    // where it exceeds the driver's texture size.
+    bool upload(const Frame& frame);
     // Clears the framebuffer and draws the frame uploaded last, if any, into its fit_rectangle.
     void draw(const DisplaySettings& settings);
 
@@ -39,7 +40,7 @@ class Display {
     GlProgram program_;
     GLuint texture_ = 0, vertex_array_ = 0;
     Vec2u extent_{0};
-    uint64_t epoch_ = 0, total_samples_ = 0;
+    uint64_t serial_ = 0;
 };
 
 }  // namespace candela

@@ -163,14 +163,11 @@ void Viewer::take_frame() {
     if (model_.status.done && !was_done) redraws_ = std::max(redraws_, 1);
     if (!model_.status.error.empty() && model_.notice != model_.status.error) notify(model_.status.error, true);
     frame_ = session_->latest();
-    if (frame_ == nullptr) return;
-    const uint64_t samples = frame_->statistics.total_samples;
-    if (frame_->epoch == model_.frame_epoch && samples == shown_samples_) return;
+    if (frame_ == nullptr || !display_.upload(*frame_)) return;
     model_.frame_epoch = frame_->epoch;
-    shown_samples_ = samples;
+    model_.frame_serial = frame_->serial;
     model_.film = frame_->statistics;
     model_.frame_extent = {frame_->image.width(), frame_->image.height()};
-    display_.upload(*frame_);
     hold_until_s_ = 0;
     redraws_ = std::max(redraws_, 1);
 }

@@ -102,7 +102,6 @@ class Viewer {
     uint32_t next_camera_ = 0;
 
     const Frame* frame_ = nullptr;
-    uint64_t shown_samples_ = 0;
     bool dirty_ = false;  // the request has to be submitted
     int redraws_ = 2;     // panels need two frames to settle
     double hold_until_s_ = 0;

@@ -25,6 +25,7 @@ struct ViewerModel {
     FilmStatistics film;
     Vec2u frame_extent{0};
     uint64_t frame_epoch = 0;  // the submit that the frame shown belongs to
+    uint64_t frame_serial = 0;
     bool loading = false;
     std::string loading_name;
     SceneLoader::State loading_state;

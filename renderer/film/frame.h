@@ -19,6 +19,7 @@ struct FilmStatistics {
 struct Frame {
     ImageRgba32f image;   // linear radiance premultiplied by alpha
     uint64_t epoch = 0;   // which submit this belongs to
+    uint64_t serial = 0;  // counts the frames of a session from 1: two frames with one serial are the same picture
     uint32_t stride = 1;  // 1 once every pixel has a sample of its own
     FilmStatistics statistics;
     double render_seconds = 0;

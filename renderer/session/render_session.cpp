@@ -102,6 +102,7 @@ struct RenderSession::Impl {
     RayCounts rays;
     double rays_per_second = 0;
     Clock::time_point epoch_submitted, last_publish;
+    uint64_t frames_published = 0;
     bool first_frame_out = false;
     double last_cancel_seconds = 0, last_first_frame_seconds = 0;
     std::string error;
@@ -215,6 +216,7 @@ void RenderSession::Impl::publish() {
     if (frame.image.width() != width || frame.image.height() != height) frame.image = ImageRgba32f(width, height);
     run_rows([&](uint32_t begin, uint32_t end) { resolve_rows(film, begin, end, frame); });
     frame.epoch = epoch;
+    frame.serial = ++frames_published;
     frame.stride = schedule ? schedule->current_stride() : 1;
     frame.statistics = statistics;
     frame.statistics.min_samples = schedule ? schedule->complete_samples() : 0;

@@ -16,7 +16,7 @@ Frame make_frame(int width, int height) {
     Frame frame;
     frame.image = ImageRgba32f(width, height);
     frame.epoch = 1;
-    frame.statistics.total_samples = 1;
+    frame.serial = 1;
     std::mt19937 random(7);
     std::uniform_real_distribution<float> exponent(-4.0f, 3.0f);
     for (Vec4& pixel : frame.image.pixels()) {
@@ -105,7 +105,7 @@ TEST(Display, ANewFrameReplacesTheOldAndAnEqualOneIsNotUploadedAgain) {
     Frame frame;
     frame.image = ImageRgba32f(8, 8, Vec4(1, 1, 1, 1));
     frame.epoch = 1;
-    frame.statistics.total_samples = 64;
+    frame.serial = 1;
     const OsmesaContext context({8, 8});
     Display display(context);
     display.upload(frame);
@@ -118,7 +118,7 @@ TEST(Display, ANewFrameReplacesTheOldAndAnEqualOneIsNotUploadedAgain) {
     display.draw({{0, ToneCurve::linear}, true});
     EXPECT_EQ(read_back(context)(3, 3), Rgba8(255));
 
-    frame.statistics.total_samples = 128;
+    frame.serial = 2;
     display.upload(frame);
     display.draw({{0, ToneCurve::linear}, true});
     EXPECT_EQ(read_back(context)(3, 3), Rgba8(0, 0, 0, 255));

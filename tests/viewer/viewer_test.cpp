@@ -271,6 +271,23 @@ TEST_F(ViewerTest, DraggingOnAPanelDoesNotTurnTheScene) {
     EXPECT_EQ(model().view, view);
 }
 
+// A picture of stride 8 is followed by finer ones long before every pixel has two samples.
+TEST_F(ViewerTest, EveryRefinementOfAYoungPictureIsShown) {
+    context_ = std::make_unique<OsmesaContext>(Vec2u(1280, 960));
+    viewer_ =
+        std::make_unique<Viewer>(options_for("assets/cornell_box.glb", 1 << 20), *context_, ViewerOptions{false, {}});
+    int shown = 0;
+    uint64_t last = 0;
+    const auto begin = std::chrono::steady_clock::now();
+    while (model().status.spp < 2 && std::chrono::steady_clock::now() - begin < std::chrono::seconds(60)) {
+        viewer_->update();
+        if (model().frame_serial == last) continue;
+        last = model().frame_serial;
+        ++shown;
+    }
+    EXPECT_GE(shown, 5);
+}
+
 TEST_F(ViewerTest, PauseHoldsAndGoesOn) {
     RenderOptions options = options_for("assets/cornell_box.glb", 1 << 20);
     context_ = std::make_unique<OsmesaContext>(extent);
