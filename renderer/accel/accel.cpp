@@ -33,19 +33,14 @@ void fill_ray(RTCRay& out, const Ray& ray) {
 
 struct Candidate {
     uint32_t surface = 0, triangle = 0;
-    float opacity = 0;
+    float u = 0, v = 0;
 };
 
-// Single rays offer one candidate at a time. An opacity that is not a number counts as 0.
-Candidate evaluate_candidate(const OpacityQuery& query, const RTCFilterFunctionNArguments& arguments) {
+// Single rays offer one candidate at a time.
+Candidate candidate_of(const Accel::Impl& accel, const RTCFilterFunctionNArguments& arguments) {
     RTCHitN* hit = arguments.hit;
-    Candidate out;
-    out.surface = query.accel->surface_of(RTCHitN_geomID(hit, 1, 0), RTCHitN_instID(hit, 1, 0, 0));
-    out.triangle = RTCHitN_primID(hit, 1, 0);
-    const float opacity = query.accel->opacity(query.accel->opacity_user, out.surface, out.triangle,
-                                               RTCHitN_u(hit, 1, 0), RTCHitN_v(hit, 1, 0));
-    out.opacity = std::min(std::max(0.0f, opacity), 1.0f);
-    return out;
+    return {accel.surface_of(RTCHitN_geomID(hit, 1, 0), RTCHitN_instID(hit, 1, 0, 0)), RTCHitN_primID(hit, 1, 0),
+            RTCHitN_u(hit, 1, 0), RTCHitN_v(hit, 1, 0)};
 }
 
 }  // namespace
@@ -53,16 +48,25 @@ Candidate evaluate_candidate(const OpacityQuery& query, const RTCFilterFunctionN
 void filter_stochastic_hit(const RTCFilterFunctionNArguments* arguments) {
     if (arguments->valid[0] != -1) return;
     const auto& query = *reinterpret_cast<const OpacityQuery*>(arguments->context);
-    const Candidate candidate = evaluate_candidate(query, *arguments);
-    const uint32_t hash = hash_combine(hash_combine(query.alpha_seed, candidate.surface), candidate.triangle);
-    if (unit_float(hash) >= candidate.opacity) arguments->valid[0] = 0;
+    const Candidate at = candidate_of(*query.accel, *arguments);
+    const float opacity = query.accel->opacity(query.accel->opacity_user, at.surface, at.triangle, at.u, at.v);
+    const uint32_t hash = hash_combine(hash_combine(query.alpha_seed, at.surface), at.triangle);
+    // An opacity that is not a number counts as 0.
+    if (!(unit_float(hash) < opacity)) arguments->valid[0] = 0;
 }
 
 void filter_shadow_hit(const RTCFilterFunctionNArguments* arguments) {
     if (arguments->valid[0] != -1) return;
     auto& query = *reinterpret_cast<OpacityQuery*>(arguments->context);
-    query.transmittance *= 1.0f - evaluate_candidate(query, *arguments).opacity;
-    if (query.transmittance > 0.0f) arguments->valid[0] = 0;
+    const Candidate at = candidate_of(*query.accel, *arguments);
+    const Accel::Impl& accel = *query.accel;
+    const Vec3 passes =
+        accel.transmittance != nullptr
+            ? accel.transmittance(accel.opacity_user, at.surface, at.triangle, at.u, at.v, query.direction)
+            : Vec3(1.0f - accel.opacity(accel.opacity_user, at.surface, at.triangle, at.u, at.v));
+    for (int i = 0; i < 3; ++i)
+        query.transmittance[i] *= passes[i] >= 0.0f ? std::min(passes[i], 1.0f) : 0.0f;
+    if (max_component(query.transmittance) > 0.0f) arguments->valid[0] = 0;
 }
 
 Hit Accel::intersect(const Ray& ray, uint32_t alpha_seed) const noexcept {
@@ -89,18 +93,19 @@ Hit Accel::intersect(const Ray& ray, uint32_t alpha_seed) const noexcept {
     return hit;
 }
 
-float Accel::transmittance(const Ray& ray) const noexcept {
+Vec3 Accel::transmittance(const Ray& ray) const noexcept {
     const Impl& accel = *impl_;
-    if (!is_traceable(accel, ray)) return 1.0f;
+    if (!is_traceable(accel, ray)) return Vec3(1);
 
     OpacityQuery query;
     embree::init_context(query.embree);
     query.accel = &accel;
+    query.direction = ray.direction;
     RTCRay shadow;
     fill_ray(shadow, ray);
     embree::occluded(accel.top.get(), query.embree, shadow);
     // Embree marks an occluded ray by tfar = -infinity; surfaces that let light pass are only in the product.
-    return shadow.tfar < 0.0f ? 0.0f : query.transmittance;
+    return shadow.tfar < 0.0f ? Vec3(0) : query.transmittance;
 }
 
 Accel::Accel(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

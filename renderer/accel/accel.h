@@ -31,11 +31,15 @@ struct Hit {
 // How opaque (0..1) the surface is at a point; called from many threads at once, during traversal.
 using OpacityFunction = float (*)(const void* user, uint32_t surface, uint32_t triangle, float u, float v) noexcept;
 
+// The share of light that passes the point in a straight line along the unit vector `direction`.
+using TransmittanceFunction = Vec3 (*)(const void* user, uint32_t surface, uint32_t triangle, float u, float v,
+                                       const Vec3& direction) noexcept;
+
 // One placed primitive. The buffers must outlive the Accel and have 16 readable bytes after the last position.
 struct AccelGeometry {
     std::span<const Vec3> positions;
     std::span<const Vec3u> triangles;
-    bool has_opacity = false;  // hits are offered to the opacity function
+    bool has_opacity = false;  // hits are offered to the two functions
     uint32_t surface = 0;      // reported in hits; for shared groups: added to the instance's first_surface
 };
 
@@ -51,7 +55,8 @@ struct AccelInput {
     std::vector<std::vector<AccelGeometry>> groups;  // in object space
     std::vector<AccelInstance> instances;            // of groups; invertible transforms only
     OpacityFunction opacity = nullptr;
-    const void* opacity_user = nullptr;
+    TransmittanceFunction transmittance = nullptr;  // null: 1 - opacity
+    const void* opacity_user = nullptr;             // handed to both
 };
 
 struct AccelError : std::runtime_error {
@@ -76,8 +81,8 @@ class Accel {
     // The nearest hit. A surface of opacity a is passed with probability 1-a, decided by a hash of alpha_seed and the
     // triangle, so that the decision does not depend on the order of traversal. A ray that is not finite hits nothing.
     Hit intersect(const Ray& ray, uint32_t alpha_seed) const noexcept;
-    // The fraction of light that passes from origin to t_max: the product of (1 - opacity) over the surfaces between.
-    float transmittance(const Ray& ray) const noexcept;
+    // The share of light that passes from origin to t_max: the product of the transmittances of the surfaces between.
+    Vec3 transmittance(const Ray& ray) const noexcept;
 
     Bounds3 bounds() const;
     uint64_t memory_bytes() const;

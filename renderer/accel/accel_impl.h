@@ -46,6 +46,7 @@ struct Accel::Impl {
     uint32_t world_count = 0;
 
     OpacityFunction opacity = nullptr;
+    TransmittanceFunction transmittance = nullptr;
     const void* opacity_user = nullptr;
     Bounds3 bounds;
     // Embree accepts coordinates up to 1.8e18, in object space too: squared limits for rays in world space.
@@ -66,7 +67,8 @@ struct OpacityQuery {
     embree::QueryContext embree;  // first: Embree hands the filters a pointer to it
     const Accel::Impl* accel = nullptr;
     uint32_t alpha_seed = 0;
-    float transmittance = 1.0f;
+    Vec3 direction{0};
+    Vec3 transmittance{1.0f};
 };
 
 // Filters of geometries with has_opacity.

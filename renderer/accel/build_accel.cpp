@@ -165,6 +165,7 @@ void Accel::Impl::build(const AccelInput& input, const std::function<void(float)
     rtcSetDeviceErrorFunction(device.get(), on_device_error, &monitor);
     rtcSetDeviceMemoryMonitorFunction(device.get(), on_device_memory, &monitor);
     opacity = input.opacity;
+    transmittance = input.transmittance;
     opacity_user = input.opacity_user;
     const bool with_opacity = opacity != nullptr;
 

@@ -16,6 +16,8 @@ struct SpecularAlbedo {
 
 // Bilinear in a table over cosine and perceptual roughness; within 2e-3 of the integral (tested).
 SpecularAlbedo specular_albedo(float cos_theta, float alpha) noexcept;
+// The same for a lobe that is wider along x: alpha.x >= alpha.y. Its table is made at the first call.
+SpecularAlbedo specular_albedo(const Vec3& wo, const Vec2& alpha) noexcept;
 
 // Cosine-weighted means over the hemisphere, 2∫ x cosθ d(cosθ), of the interpolated table: of scale and bias, and of
 // both divided by their sum.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/integrator/aov.h"
 
-#include "renderer/world/surface_point.h"
+#include "renderer/world/shaded_material.h"
 
 namespace candela {
 
@@ -15,7 +15,7 @@ FirstHit trace_first_hit(const World& world, const View& view, const Vec2& film_
     const Hit hit = world.accel->intersect(ray, 0);
     if (!hit.valid()) return out;
     const SurfacePoint point = make_surface_point(world, hit, -ray.direction);
-    const ShadedMaterial material = shade_material(world, point);
+    const ShadedMaterial material = shade_material(world, point, -ray.direction);
     out.hit = true;
     out.albedo =
         material.unlit ? material.emission : albedo(material.bsdf, point.shading.local_from_world(-ray.direction));

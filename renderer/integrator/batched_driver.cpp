@@ -10,7 +10,7 @@ namespace candela {
 
 namespace {
 
-// About 60 KiB: a batch stays in a core's L2 cache.
+// About 70 KiB: a batch stays in a core's L2 cache.
 struct Batch {
     std::array<PathState, max_batch> paths;
     std::array<Hit, max_batch> hits;

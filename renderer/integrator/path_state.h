@@ -4,6 +4,7 @@
 #pragma once
 
 #include "renderer/integrator/integrator.h"
+#include "renderer/integrator/medium_set.h"
 
 namespace candela {
 
@@ -13,10 +14,14 @@ struct PathState {
     Vec3 radiance{0};    // gathered so far
     float alpha = 1;
     Sampler sampler;
-    float bsdf_pdf = 0;      // with which ray.direction was drawn, per solid angle
-    float eta_scale = 1;     // product of squared relative indices, taken out of the roulette's decision
-    uint32_t depth = 0;      // scattering events so far
-    bool from_delta = true;  // no light sample could have found ray.direction: camera rays and delta lobes
+    MediumSet media;     // what the segment runs through
+    Vec3 vertex{0};      // where ray.direction was drawn: thin glass and hidden boundaries only move the ray's start
+    float bsdf_pdf = 0;  // with which it was drawn, per solid angle
+    float wavelength_nm = 0;  // of a path that went through dispersive glass; 0: all
+    float eta_scale = 1;      // product of squared relative indices, taken out of the roulette's decision
+    uint32_t depth = 0;       // scattering events so far
+    uint32_t segments = 0;    // surfaces met so far, those that were passed straight included
+    bool from_delta = true;   // no light sample could have found ray.direction: camera rays and delta lobes
     bool alive = true;
 };
 

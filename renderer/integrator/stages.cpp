@@ -4,7 +4,8 @@
 #include "renderer/math/hash.h"
 #include "renderer/sampling/mis.h"
 #include "renderer/sampling/warp.h"
-#include "renderer/world/surface_point.h"
+#include "renderer/sampling/wavelength.h"
+#include "renderer/world/shaded_material.h"
 
 namespace candela {
 
@@ -22,12 +23,15 @@ constexpr float filter_radius = 1.5f;
 constexpr uint32_t roulette_depth = 3;
 constexpr float max_survival = 0.95f;
 
+// A path that meets so many surfaces runs in circles between boundaries that no light leaves: rounding, not optics.
+constexpr uint32_t most_segments = 1u << 16;
+
 void gather(const IntegratorSettings& settings, const PathState& path, Vec3 contribution, uint32_t depth,
             Vec3& radiance) {
     contribution *= path.throughput;
     // The biased clamp, if asked for, holds for light that scattered more than once.
     if (settings.clamp_indirect > 0.0f && depth > 1) {
-        const float largest = max_component(contribution);
+        const float largest = max_component(glm::abs(contribution));
         if (largest > settings.clamp_indirect) contribution *= settings.clamp_indirect / largest;
     }
     radiance += contribution;
@@ -58,11 +62,63 @@ void shade_miss(const World& world, const IntegratorSettings& settings, PathStat
         gather(settings, path, weight * world.lights.environment->radiance(wi), path.depth, path.radiance);
 }
 
+// What a body leaves of light over a distance, by Beer-Lambert's law. A body without end absorbs nothing: its mesh is
+// not closed.
+Vec3 transmittance_of(const World& world, uint32_t medium, float distance_m) {
+    if (medium == invalid_index || is_black(world.media[medium].absorption) || !std::isfinite(distance_m)) {
+        return Vec3(1);
+    }
+    return glm::exp(-world.media[medium].absorption * distance_m);
+}
+
+// The boundary of a body, as the path meets it.
+struct Boundary {
+    MediumSet near, far;  // the bodies on wo's side and beyond
+    InterfaceIndices indices;
+    bool is_hidden = false;  // inside another body of higher rank: not there
+};
+
+float index_of(const World& world, uint32_t medium, float wavelength_nm) {
+    if (medium == invalid_index) return 1.0f;
+    const Medium& m = world.media[medium];
+    return m.dispersion > 0.0f && wavelength_nm > 0.0f ? dispersed_ior(m.ior, m.dispersion, wavelength_nm) : m.ior;
+}
+
+// Sorts out which bodies meet at a surface. A dispersive one commits the path to one wavelength.
+Boundary meet_boundary(const World& world, uint32_t medium, bool entering, float u_wavelength, PathState& path) {
+    Boundary out;
+    out.near = out.far = path.media;
+    if (medium == invalid_index) return out;
+    (entering ? out.far : out.near).enter(medium);
+    (entering ? out.near : out.far).leave(medium);
+    const uint32_t other = path.media.present(world, medium);
+    out.is_hidden = other != invalid_index && world.media[other].rank > world.media[medium].rank;
+    if (out.is_hidden) return out;
+
+    const bool disperses =
+        world.media[medium].dispersion > 0.0f || (other != invalid_index && world.media[other].dispersion > 0.0f);
+    if (disperses && path.wavelength_nm == 0.0f) {
+        const WavelengthSample sampled = sample_wavelength(u_wavelength);
+        path.wavelength_nm = sampled.wavelength_nm;
+        path.throughput *= sampled.weight;
+    }
+    const float own = index_of(world, medium, path.wavelength_nm);
+    const float others = index_of(world, other, path.wavelength_nm);
+    out.indices = entering ? InterfaceIndices{others, own} : InterfaceIndices{own, others};
+    return out;
+}
+
+// Sends the path on in its direction from the other side of the surface.
+void pass_straight(const SurfacePoint& point, PathState& path) {
+    path.ray.origin = offset_ray_origin(point.position, -point.geometric_normal, point.error_m);
+    path.segments += 1;
+}
+
 // The segment from a surface point to a point on a light, moved off both surfaces.
 Ray shadow_ray(const World& world, const SurfacePoint& point, const LightSample& light) {
     Ray ray;
     const float side = glm::dot(point.geometric_normal, light.wi) < 0.0f ? -1.0f : 1.0f;
-    ray.origin = offset_ray_origin(point.position, side * point.geometric_normal);
+    ray.origin = offset_ray_origin(point.position, side * point.geometric_normal, point.error_m);
     ray.direction = light.wi;
     ray.t_max = infinity;
     if (!std::isfinite(light.distance)) return ray;
@@ -72,8 +128,10 @@ Ray shadow_ray(const World& world, const SurfacePoint& point, const LightSample&
         const EmissiveTriangle& triangle =
             world.lights.triangles[world.surfaces[light.surface].first_emissive + light.triangle];
         const Vec3 normal = glm::normalize(glm::cross(triangle.edge1, triangle.edge2));
+        const float error_m =
+            surface_error_m(glm::abs(triangle.p0) + glm::abs(triangle.edge1) + glm::abs(triangle.edge2), normal);
         target = offset_ray_origin(triangle.p0 + light.u * triangle.edge1 + light.v * triangle.edge2,
-                                   glm::dot(normal, light.wi) < 0.0f ? normal : -normal);
+                                   glm::dot(normal, light.wi) < 0.0f ? normal : -normal, error_m);
     }
     const Vec3 segment = target - ray.origin;
     const float length = glm::length(segment);
@@ -84,7 +142,7 @@ Ray shadow_ray(const World& world, const SurfacePoint& point, const LightSample&
 
 // Next-event estimation: one light, weighted against the chance that a BSDF sample finds it.
 ShadowRequest plan_connection(const World& world, const IntegratorSettings& settings, const SurfacePoint& point,
-                              const ShadedMaterial& material, const Vec3& wo, float u_pick, const Vec2& u,
+                              const Boundary& boundary, const Bsdf& bsdf, const Vec3& wo, float u_pick, const Vec2& u,
                               const PathState& path) {
     ShadowRequest request;
     const LightSample light = sample_light(world.lights, point.position, u_pick, u);
@@ -92,15 +150,18 @@ ShadowRequest plan_connection(const World& world, const IntegratorSettings& sett
     if (settings.estimator == Estimator::bsdf && !light.is_delta) return request;
     const Vec3 wi = point.shading.local_from_world(light.wi);
     // Light from behind the true surface does not reach its front, whatever the shading normal says.
-    if (glm::dot(light.wi, point.geometric_normal) <= 0.0f || wi.z <= 0.0f) return request;
+    const bool transmitted = wi.z < 0.0f;
+    if ((glm::dot(light.wi, point.geometric_normal) <= 0.0f) != transmitted) return request;
 
-    const BsdfEval bsdf = eval(material.bsdf, wo, wi);
-    if (is_black(bsdf.value)) return request;
-    Vec3 contribution = bsdf.value * light.weight;
+    const BsdfEval scattered = eval(bsdf, wo, wi);
+    if (is_black(scattered.value)) return request;
+    Vec3 contribution = scattered.value * light.weight;
     if (light.surface != invalid_index) {
         contribution *= emitted_radiance(world, light.surface, light.triangle, light.u, light.v);
     }
-    if (!light.is_delta && settings.estimator == Estimator::mis) contribution *= mis_weight(light.pdf, bsdf.pdf);
+    const MediumSet& media = transmitted ? boundary.far : boundary.near;
+    if (!media.empty()) contribution *= transmittance_of(world, media.present(world), light.distance);
+    if (!light.is_delta && settings.estimator == Estimator::mis) contribution *= mis_weight(light.pdf, scattered.pdf);
     if (is_black(contribution)) return request;
 
     gather(settings, path, contribution, path.depth + 1, request.contribution);
@@ -126,7 +187,7 @@ PathState begin_path(const View& view, const IntegratorSettings& settings, Pixel
 
 Hit extend(const World& world, const PathState& path, RayCounts& counts) noexcept {
     ++(path.depth == 0 ? counts.camera : counts.bounce);
-    return world.accel->intersect(path.ray, hash_combine(path.sampler.hash(), path.depth));
+    return world.accel->intersect(path.ray, hash_combine(path.sampler.hash(), path.segments));
 }
 
 ShadowRequest shade(const World& world, const IntegratorSettings& settings, const Hit& hit, PathState& path) noexcept {
@@ -136,59 +197,79 @@ ShadowRequest shade(const World& world, const IntegratorSettings& settings, cons
     }
     const Vec3 wo_world = -path.ray.direction;
     const SurfacePoint point = make_surface_point(world, hit, wo_world);
-    const ShadedMaterial material = shade_material(world, point);
+    if (!path.media.empty()) path.throughput *= transmittance_of(world, path.media.present(world), hit.distance);
+
+    // All random numbers of this vertex, at fixed dimensions.
+    path.sampler.start_dimension(camera_dimensions + vertex_dimensions * path.segments);
+    const Vec2 u_light = path.sampler.next_2d();
+    const Vec2 u_bsdf = path.sampler.next_2d();
+    const Vec2 u_choices = path.sampler.next_2d();
+    const Vec2 u_rare = path.sampler.next_2d();
+
+    // Bodies that meet here: their indices of refraction, or nothing at all where another body hides the boundary.
+    const Boundary boundary =
+        meet_boundary(world, world.surfaces[point.surface].medium, point.front_face, u_rare.y, path);
+    if (boundary.is_hidden) {
+        path.media = boundary.far;
+        pass_straight(point, path);
+        path.alive = path.segments < most_segments;
+        return {};
+    }
+    const ShadedMaterial material = shade_material(world, point, wo_world, boundary.indices);
 
     // Emission that this segment ran into. Unlit surfaces are not in the light sampler, so nothing else can find them.
     if (!is_black(material.emission)) {
         float light_pdf = 0.0f;
         const uint32_t first_emissive = world.surfaces[point.surface].first_emissive;
         if (!path.from_delta && first_emissive != invalid_index) {
-            const float distance = glm::length(point.position - path.ray.origin);
-            light_pdf = triangle_light_pdf(world.lights, first_emissive + point.triangle, path.ray.origin,
-                                           path.ray.direction, distance);
+            light_pdf = triangle_light_pdf(world.lights, first_emissive + point.triangle, path.vertex,
+                                           path.ray.direction, glm::length(point.position - path.vertex));
         }
         const float weight = found_light_weight(settings, path, light_pdf);
         if (weight > 0.0f) gather(settings, path, weight * material.emission, path.depth, path.radiance);
     }
-    if (material.unlit || (settings.max_depth > 0 && path.depth >= settings.max_depth)) {
+    if (material.unlit) {
         path.alive = false;
         return {};
     }
-
-    // All random numbers of this vertex, at fixed dimensions.
-    path.sampler.start_dimension(camera_dimensions + vertex_dimensions * path.depth);
-    const Vec2 u_light = path.sampler.next_2d();
-    const Vec2 u_bsdf = path.sampler.next_2d();
-    const Vec2 u_choices = path.sampler.next_2d();
-    const float u_roulette = path.sampler.next_2d().x;
+    const Vec3 wo = point.shading.local_from_world(wo_world);
+    const bool may_scatter = settings.max_depth == 0 || path.depth < settings.max_depth;
 
     // Plan the connection to a light.
-    const Vec3 wo = point.shading.local_from_world(wo_world);
     ShadowRequest request;
-    if (!world.lights.empty()) {
-        request = plan_connection(world, settings, point, material, wo, u_choices.x, u_light, path);
+    if (may_scatter && !world.lights.empty()) {
+        request = plan_connection(world, settings, point, boundary, material.bsdf, wo, u_choices.x, u_light, path);
     }
 
-    // Draw the next direction.
+    // Draw the next direction. Going straight through thin glass is no scattering: sampled lights shine through it too.
     const BsdfSample scattered = sample(material.bsdf, wo, u_choices.y, u_bsdf);
     const Vec3 wi = point.shading.world_from_local(scattered.wi);
     const bool transmitted = scattered.wi.z < 0.0f;
     path.alive = scattered.pdf > 0.0f && !is_black(scattered.weight) &&
-                 (glm::dot(wi, point.geometric_normal) < 0.0f) == transmitted;
+                 (glm::dot(wi, point.geometric_normal) < 0.0f) == transmitted &&
+                 (may_scatter || scattered.is_straight) && path.segments < most_segments;
     if (!path.alive) return request;
     path.throughput *= scattered.weight;
-    path.bsdf_pdf = scattered.pdf;
-    path.from_delta = scattered.is_delta;
-    path.eta_scale *= sqr(scattered.eta);
-    path.depth += 1;
-    path.ray.origin = offset_ray_origin(point.position, transmitted ? -point.geometric_normal : point.geometric_normal);
-    path.ray.direction = glm::normalize(wi);
-    path.ray.t_max = infinity;
+    if (scattered.is_straight) {
+        pass_straight(point, path);
+    } else {
+        path.bsdf_pdf = scattered.pdf;
+        path.from_delta = scattered.is_delta;
+        path.eta_scale *= sqr(scattered.eta);
+        path.depth += 1;
+        path.segments += 1;
+        path.media = transmitted ? boundary.far : boundary.near;
+        path.vertex = point.position;
+        path.ray.origin = offset_ray_origin(
+            point.position, transmitted ? -point.geometric_normal : point.geometric_normal, point.error_m);
+        path.ray.direction = glm::normalize(wi);
+        path.ray.t_max = infinity;
+    }
 
     // Russian roulette: a path lives on with about the share of light that it still carries.
-    if (settings.russian_roulette && path.depth >= roulette_depth) {
-        const float survival = std::min(max_component(path.throughput) * path.eta_scale, max_survival);
-        if (u_roulette >= survival) {
+    if (settings.russian_roulette && path.segments >= roulette_depth) {
+        const float survival = std::min(max_component(glm::abs(path.throughput)) * path.eta_scale, max_survival);
+        if (u_rare.x >= survival) {
             path.alive = false;
         } else {
             path.throughput /= survival;

@@ -27,16 +27,17 @@ constexpr Known known[] = {
     {"KHR_texture_transform", Treatment::rendered, true, ""},
     {"KHR_animation_pointer", Treatment::ignored, false, "animations are not played"},
     {"KHR_draco_mesh_compression", Treatment::ignored, false, "meshes come from their uncompressed form, if any"},
-    {"KHR_materials_anisotropy", Treatment::ignored, false, "highlights are isotropic"},
-    {"KHR_materials_clearcoat", Treatment::ignored, false, "materials have no coat"},
-    {"KHR_materials_diffuse_transmission", Treatment::ignored, false, "no light passes through thin surfaces"},
-    {"KHR_materials_dispersion", Treatment::ignored, false, "refraction does not depend on the wavelength"},
-    {"KHR_materials_iridescence", Treatment::ignored, false, "thin films have no colours"},
-    {"KHR_materials_pbrSpecularGlossiness", Treatment::ignored, false, "the metallic-roughness values are used"},
-    {"KHR_materials_sheen", Treatment::ignored, false, "cloth has no sheen"},
-    {"KHR_materials_transmission", Treatment::ignored, false, "glass is opaque"},
+    {"KHR_materials_anisotropy", Treatment::rendered, true, ""},
+    {"KHR_materials_clearcoat", Treatment::rendered, true, ""},
+    {"KHR_materials_diffuse_transmission", Treatment::rendered, true, ""},
+    {"KHR_materials_dispersion", Treatment::rendered, true, ""},
+    {"KHR_materials_iridescence", Treatment::approximated, true,
+     "interference is computed for the view's angle to the surface, not to each facet"},
+    {"KHR_materials_pbrSpecularGlossiness", Treatment::rendered, true, ""},
+    {"KHR_materials_sheen", Treatment::rendered, true, ""},
+    {"KHR_materials_transmission", Treatment::rendered, true, ""},
     {"KHR_materials_variants", Treatment::ignored, true, "the default materials are used"},
-    {"KHR_materials_volume", Treatment::ignored, false, "bodies do not absorb light"},
+    {"KHR_materials_volume", Treatment::rendered, true, ""},
     {"KHR_node_visibility", Treatment::ignored, false, "all nodes are visible"},
     {"KHR_texture_basisu", Treatment::ignored, false, "textures come from their fallback images, if any"},
     {"EXT_mesh_gpu_instancing", Treatment::ignored, false, "each mesh is placed once"},
@@ -49,19 +50,6 @@ const Known* find_known(std::string_view name) {
         if (candidate.name == name) return &candidate;
     }
     return nullptr;
-}
-
-bool has_specular_textures(const Json& document) {
-    const auto materials = document.find("materials");
-    if (materials == document.end()) return false;
-    for (const Json& material : *materials) {
-        const auto extensions = material.find("extensions");
-        if (extensions == material.end()) continue;
-        const auto specular = extensions->find("KHR_materials_specular");
-        if (specular == extensions->end()) continue;
-        if (specular->contains("specularTexture") || specular->contains("specularColorTexture")) return true;
-    }
-    return false;
 }
 
 std::vector<std::string> names_in(const Json& document, const char* list) {
@@ -84,10 +72,6 @@ std::vector<ExtensionUse> treat_extensions(LoadContext& context, const Json& doc
         if (entry != nullptr) {
             use.treatment = entry->treatment;
             use.how = entry->how;
-        }
-        if (name == "KHR_materials_specular" && has_specular_textures(document)) {
-            use.treatment = Treatment::approximated;
-            use.how = "specular textures ignored";
         }
         return uses.emplace_back(std::move(use));
     };

@@ -2,7 +2,8 @@
 // Materials, textures and samplers of a file.
 #pragma once
 
-#include <array>
+#include <optional>
+#include <vector>
 
 #include "renderer/io/load_context.h"
 
@@ -16,12 +17,14 @@ namespace candela {
 // Needs scene.images to be as long as the file's; a texture without a usable image is left out of the materials.
 void load_materials(LoadContext& context, const tinygltf::Model& model, Scene& scene);
 
-// The pointer to each textureInfo of material index that refs points to, in the order below.
-inline constexpr size_t texture_slot_count = 5;
+// The textures that a material uses.
 struct TextureSlot {
-    TextureRef* ref;
-    const char* member;  // "pbrMetallicRoughness/baseColorTexture"
+    const TextureRef* ref;
+    const char* name;
 };
-std::array<TextureSlot, texture_slot_count> texture_slots(Material& material);
+std::vector<TextureSlot> texture_slots(const Material& material);
+
+// The texture coordinates along which the material's tangents run; nothing where it needs none.
+std::optional<uint32_t> tangent_uv_set(const Material& material);
 
 }  // namespace candela

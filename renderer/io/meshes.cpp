@@ -127,9 +127,9 @@ void PrimitiveLoader::repair(Primitive& out) {
 void PrimitiveLoader::check_uv_sets(const Primitive& primitive) {
     if (!primitive.material.valid()) return;
     for (const TextureSlot& slot : texture_slots(scene_.materials[primitive.material.value])) {
-        if (!slot.ref->valid() || !primitive.uv[slot.ref->uv_set].empty()) continue;
+        if (!primitive.uv[slot.ref->uv_set].empty()) continue;
         context_.warn(where_, "has no TEXCOORD_" + std::to_string(slot.ref->uv_set) + " for its material's " +
-                                  slot.member + "; one texel is used throughout");
+                                  slot.name + "; one texel is used throughout");
     }
 }
 
@@ -155,7 +155,8 @@ std::optional<Primitive> PrimitiveLoader::load() {
     out.positions = accessors_.read_vec3(*positions, attribute_place("POSITION"));
     out.triangles = load_triangles(mode, out.positions.size(), *positions);
     if (source_.material >= 0) out.material = MaterialId{static_cast<uint32_t>(source_.material)};
-    const bool wants_tangents = out.material.valid() && scene_.materials[out.material.value].normal.valid();
+    const bool wants_tangents =
+        out.material.valid() && tangent_uv_set(scene_.materials[out.material.value]).has_value();
     load_attributes(out, wants_tangents);
     repair(out);
     if (out.triangles.empty()) {
@@ -199,12 +200,12 @@ void generate_missing_tangents(LoadContext& context, Scene& scene) {
     for (size_t m = 0; m < scene.meshes.size(); ++m) {
         for (Primitive& primitive : scene.meshes[m].primitives) {
             if (!primitive.material.valid() || !primitive.tangents.empty()) continue;
-            const TextureRef& normal = scene.materials[primitive.material.value].normal;
-            if (!normal.valid() || primitive.uv[normal.uv_set].empty()) continue;
+            const std::optional<uint32_t> uv_set = tangent_uv_set(scene.materials[primitive.material.value]);
+            if (!uv_set || primitive.uv[*uv_set].empty()) continue;
             context.check_cancel();
             // Vertices may be split, up to one per corner.
             context.charge(primitive.triangles.size() * 3, sizeof(Vec4), pointer_to("/meshes", m));
-            generate_tangents(primitive, normal.uv_set);
+            generate_tangents(primitive, *uv_set);
         }
     }
 }

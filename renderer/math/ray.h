@@ -2,8 +2,6 @@
 // A ray in world space and the offset that keeps it off the surface it leaves.
 #pragma once
 
-#include <bit>
-
 #include "renderer/math/math.h"
 
 namespace candela {
@@ -15,20 +13,23 @@ struct Ray {
     float t_max = infinity;
 };
 
-// Moves a surface point p to the side its geometric unit normal n points to, far enough that a ray from there does not
-// hit the same surface again: by ulps away from the origin, by a fixed step near it.
-// Wächter and Binder 2019, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems chapter 6.
-inline Vec3 offset_ray_origin(const Vec3& p, const Vec3& n) {
-    constexpr float near_origin = 1.0f / 32.0f;
-    constexpr float float_scale = 1.0f / 65536.0f;
-    constexpr float int_scale = 256.0f;
-    Vec3 out;
+// Moves a surface point p by at least `distance_m` to the side its geometric unit normal n points to. The distance must
+// bound the errors of p and of the intersector along n; rounding the sum goes away from the surface (Pharr et al. 2023,
+// "Physically Based Rendering", section 6.8.6).
+inline Vec3 offset_ray_origin(const Vec3& p, const Vec3& n, float distance_m) {
+    Vec3 out = p + distance_m * n;
     for (int i = 0; i < 3; ++i) {
-        const auto ulps = static_cast<int32_t>(int_scale * n[i]);
-        const auto bits = std::bit_cast<int32_t>(p[i]) + (p[i] < 0.0f ? -ulps : ulps);
-        out[i] = std::abs(p[i]) < near_origin ? p[i] + float_scale * n[i] : std::bit_cast<float>(bits);
+        if (n[i] != 0.0f) out[i] = std::nextafter(out[i], n[i] > 0.0f ? infinity : -infinity);
     }
     return out;
+}
+
+// A bound of those errors on a triangle: rounding in the interpolation and in the intersector is relative to the size
+// of the coordinates and edges that they add up (section 6.8.5 there), each along its axis. Cancellation makes the
+// constant larger than the handful of operations suggests.
+inline float surface_error_m(const Vec3& magnitudes, const Vec3& n) {
+    constexpr float relative_error = 0x1p-20f;
+    return relative_error * glm::dot(magnitudes, glm::abs(n));
 }
 
 }  // namespace candela

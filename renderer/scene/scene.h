@@ -76,6 +76,59 @@ struct TextureRef {
 
 enum class AlphaMode : uint8_t { opaque, mask, blend };
 
+// The layers that the KHR_materials extensions add. Each texture multiplies the factor beside it; the comment names the
+// channel that is read. Colours are linear factors with sRGB textures.
+struct SpecularLayer {
+    float factor = 1.0f;
+    TextureRef texture;  // A
+    Vec3 color_factor{1.0f};
+    TextureRef color;
+};
+struct ClearcoatLayer {
+    float factor = 0.0f;
+    TextureRef texture;  // R
+    float roughness_factor = 0.0f;
+    TextureRef roughness;  // G
+    TextureRef normal;
+    float normal_scale = 1.0f;
+};
+struct SheenLayer {
+    Vec3 color_factor{0.0f};
+    TextureRef color;
+    float roughness_factor = 0.0f;
+    TextureRef roughness;  // A
+};
+struct IridescenceLayer {
+    float factor = 0.0f;
+    TextureRef texture;  // R
+    float ior = 1.3f;
+    float thickness_minimum_nm = 100.0f;
+    float thickness_maximum_nm = 400.0f;
+    TextureRef thickness;  // G: from minimum to maximum; without it the maximum
+};
+struct Anisotropy {
+    float strength = 0.0f;
+    float rotation_radians = 0.0f;  // counter-clockwise from the tangent
+    TextureRef texture;             // RG direction in [-1,1], B strength
+};
+struct Transmission {
+    float factor = 0.0f;
+    TextureRef texture;  // R
+};
+struct DiffuseTransmission {
+    float factor = 0.0f;
+    TextureRef texture;  // A
+    Vec3 color_factor{1.0f};
+    TextureRef color;
+};
+// KHR_materials_volume and KHR_materials_dispersion. Rays measure the thickness themselves: its texture is not used.
+struct Volume {
+    float thickness_factor = 0.0f;  // 0: a thin wall without inside
+    Vec3 attenuation_color{1.0f};
+    float attenuation_distance_m = infinity;
+    float dispersion = 0.0f;  // 20 / Abbe number
+};
+
 struct Material {
     std::string name;
     Vec4 base_color_factor{1.0f};
@@ -94,11 +147,27 @@ struct Material {
     // Both faces emit when set; without it only the front face does. Both faces always scatter.
     bool double_sided = false;
     bool unlit = false;
-    float ior = 1.5f;              // KHR_materials_ior
-    float specular_factor = 1.0f;  // KHR_materials_specular
-    Vec3 specular_color_factor{1.0f};
+    float ior = 1.5f;  // 0: total reflection
+    SpecularLayer specular;
+    ClearcoatLayer clearcoat;
+    SheenLayer sheen;
+    IridescenceLayer iridescence;
+    Anisotropy anisotropy;
+    Transmission transmission;
+    DiffuseTransmission diffuse_transmission;
+    Volume volume;
+
+    // KHR_materials_pbrSpecularGlossiness: base_color is its diffuse, specular.color_factor the reflectance at normal
+    // incidence itself, roughness_factor 1 − glossiness.
+    bool specular_glossiness = false;
+    TextureRef specular_glossiness_texture;  // sRGB specular, A glossiness
 
     bool emits() const { return !unlit && emissive_strength > 0.0f && max_component(emissive_factor) > 0.0f; }
+    bool transmits() const { return transmission.factor > 0.0f || diffuse_transmission.factor > 0.0f; }
+    // The surface encloses a medium that light enters.
+    bool has_volume() const { return transmits() && volume.thickness_factor > 0.0f; }
+    // Light may pass in a straight line: sampled lights are found through it.
+    bool is_thin_glass() const { return transmission.factor > 0.0f && volume.thickness_factor <= 0.0f; }
 };
 
 // 8 bits a channel as stored in the file; whether it is sRGB follows from the use, not from the image.

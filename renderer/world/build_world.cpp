@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/world/emissive.h"
+#include "renderer/world/media.h"
 #include "renderer/world/placement.h"
-#include "renderer/world/surface_point.h"
+#include "renderer/world/shaded_material.h"
 #include "renderer/world/world.h"
 
 namespace candela {
 
 namespace {
+
+Vec3 transmittance_callback(const void* user, uint32_t surface, uint32_t triangle, float u, float v,
+                            const Vec3& direction) noexcept {
+    return surface_transmittance(*static_cast<const World*>(user), surface, triangle, u, v, direction);
+}
 
 float opacity_callback(const void* user, uint32_t surface, uint32_t triangle, float u, float v) noexcept {
     return surface_opacity(*static_cast<const World*>(user), surface, triangle, u, v);
@@ -108,7 +114,7 @@ std::shared_ptr<const World> build_world(std::shared_ptr<const Scene> scene_poin
         AccelGeometry geometry;
         geometry.positions = std::span(positions).first(primitive.positions.size());
         geometry.triangles = primitive.triangles;
-        geometry.has_opacity = opacity.may_be_transparent(material, primitive);
+        geometry.has_opacity = opacity.may_be_transparent(material, primitive) || material.is_thin_glass();
         geometry.surface = surface;
         return geometry;
     };
@@ -162,9 +168,11 @@ std::shared_ptr<const World> build_world(std::shared_ptr<const Scene> scene_poin
 
     // Build the accelerator, then the lights, which want the bounds.
     input.opacity = opacity_callback;
+    input.transmittance = transmittance_callback;
     input.opacity_user = world.get();
     world->accel = Accel::build(input, options.progress, options.cancel);
     world->bounds = world->accel->bounds();
+    gather_media(*world);
     gather_lights(*world, options.environment);
     return world;
 }
@@ -177,6 +185,7 @@ std::shared_ptr<const World> with_environment(const std::shared_ptr<const World>
     out->transforms = world->transforms;
     out->materials = world->materials;
     out->textures = world->textures;
+    out->media = world->media;
     out->lights = world->lights;
     out->bounds = world->bounds;
     out->triangle_count = world->triangle_count;

@@ -10,15 +10,6 @@ T interpolate(const std::vector<T>& values, const Vec3u& index, const Vec3& weig
     return weight.x * values[index.x] + weight.y * values[index.y] + weight.z * values[index.z];
 }
 
-Vec2 texture_uv(const TextureRef& ref, const Vec2 uv[2]) {
-    return ref.uv_transform * Vec3(uv[ref.uv_set & 1u], 1.0f);
-}
-
-Vec2 texture_uv(const TextureRef& ref, const Primitive& primitive, const Vec3u& index, const Vec3& weight) {
-    const std::vector<Vec2>& uv = primitive.uv[ref.uv_set & 1u];
-    return ref.uv_transform * Vec3(uv.empty() ? Vec2(0) : interpolate(uv, index, weight), 1.0f);
-}
-
 // The tangent along +u of a triangle without stored tangents, from its edges in space and in uv.
 Vec4 triangle_tangent(const Vec3& edge1, const Vec3& edge2, const Vec2& uv1, const Vec2& uv2) {
     const float determinant = uv1.x * uv2.y - uv1.y * uv2.x;
@@ -26,15 +17,17 @@ Vec4 triangle_tangent(const Vec3& edge1, const Vec3& edge2, const Vec2& uv1, con
                 determinant < 0.0f ? 1.0f : -1.0f);
 }
 
-// Turns n towards wo until it sees wo at a cosine of at least min_cosine.
-Vec3 bend_towards(const Vec3& n, const Vec3& wo) {
+// Bends n until it mirrors wo to the surface's own side. Both normals are unit vectors; wo is on the side of ng.
+Vec3 bend_towards(const Vec3& n, const Vec3& ng, const Vec3& wo) {
     constexpr float min_cosine = 1e-2f;
-    const float cosine = glm::dot(n, wo);
-    if (cosine >= min_cosine) return n;
-    const Vec3 across = n - cosine * wo;
-    const float length = glm::length(across);
-    if (!(length > 1e-6f)) return wo;
-    return min_cosine * wo + std::sqrt(1.0f - min_cosine * min_cosine) / length * across;
+    const Vec3 mirrored = 2.0f * glm::dot(n, wo) * n - wo;
+    const float lowest = std::min(min_cosine, 0.9f * glm::dot(ng, wo));
+    const float height = glm::dot(mirrored, ng);
+    if (height >= lowest && glm::dot(n, wo) > 0.0f) return n;
+    const Vec3 lifted = mirrored + (lowest - height) * ng;
+    const Vec3 half = wo + lifted / std::max(glm::length(lifted), 1e-12f);
+    const float length = glm::length(half);
+    return length > 1e-6f && glm::dot(half, wo) > 0.0f ? half / length : ng;
 }
 
 OrthonormalFrame frame_with_tangent(const Vec3& normal, const Vec3& tangent, float sign) {
@@ -65,8 +58,11 @@ SurfacePoint make_surface_point(const World& world, const Hit& hit, const Vec3& 
     Vec3 edge1 = surface.positions[index.y] - p0;
     Vec3 edge2 = surface.positions[index.z] - p0;
     Vec3 position = p0 + hit.u * edge1 + hit.v * edge2;
+    Vec3 magnitudes = glm::abs(p0) + glm::abs(edge1) + glm::abs(edge2);
     if (!surface.positions_in_world) {
         const Mat3 linear(transform.world_from_object);
+        const Mat3 absolute(glm::abs(linear[0]), glm::abs(linear[1]), glm::abs(linear[2]));
+        magnitudes = absolute * magnitudes + 2.0f * glm::abs(Vec3(transform.world_from_object[3]));
         edge1 = linear * edge1;
         edge2 = linear * edge2;
         position = transform.world_from_object * Vec4(position, 1.0f);
@@ -80,6 +76,7 @@ SurfacePoint make_surface_point(const World& world, const Hit& hit, const Vec3& 
     if (transform.flips) normal = -normal;
     point.front_face = glm::dot(normal, wo) >= 0.0f;
     point.geometric_normal = point.front_face ? normal : -normal;
+    point.error_m = surface_error_m(magnitudes, normal);
 
     // Interpolate what the vertices carry.
     for (int set = 0; set < 2; ++set) {
@@ -93,98 +90,68 @@ SurfacePoint make_surface_point(const World& world, const Hit& hit, const Vec3& 
         if (length > 0.0f) shading_normal = n / length;
     }
 
-    // The normal map tilts the normal in the tangent frame of the front side.
-    if (material.normal.valid()) {
-        Vec4 tangent(0);
+    // Normal maps tilt the normal in the tangent frame of the front side.
+    const bool anisotropic = material.anisotropy.strength > 0.0f;
+    const Vec3 smooth_normal = shading_normal;
+    Vec4 tangent(0);
+    if (material.normal.valid() || material.clearcoat.normal.valid() || anisotropic) {
+        const TextureRef& along = material.normal.valid()             ? material.normal
+                                  : material.clearcoat.normal.valid() ? material.clearcoat.normal
+                                                                      : material.anisotropy.texture;
         if (!primitive.tangents.empty()) {
             tangent = interpolate(primitive.tangents, index, weight);
             tangent = Vec4(Mat3(transform.world_from_object) * Vec3(tangent),
                            (tangent.w < 0.0f) == transform.flips ? 1.0f : -1.0f);
-        } else if (const std::vector<Vec2>& uv = primitive.uv[material.normal.uv_set & 1u]; !uv.empty()) {
+        } else if (const std::vector<Vec2>& uv = primitive.uv[along.uv_set & 1u]; !uv.empty()) {
             tangent = triangle_tangent(edge1, edge2, uv[index.y] - uv[index.x], uv[index.z] - uv[index.x]);
             if (transform.flips) tangent.w = -tangent.w;
         }
-        const Vec3 texel(
-            lookup_linear(world.textures[material.normal.texture.value], texture_uv(material.normal, point.uv)));
-        const Vec3 tilt = (texel * 2.0f - 1.0f) * Vec3(material.normal_scale, material.normal_scale, 1.0f);
-        const Vec3 mapped = frame_with_tangent(shading_normal, Vec3(tangent), tangent.w).world_from_local(tilt);
-        const float length = glm::length(mapped);
-        if (length > 0.0f) shading_normal = mapped / length;
     }
-    if (!point.front_face) shading_normal = -shading_normal;
-    point.shading = OrthonormalFrame::from_normal(bend_towards(shading_normal, wo));
+    const auto mapped_normal = [&](const TextureRef& map, float scale) {
+        const Vec3 texel(lookup_linear(world.textures[map.texture.value], texture_uv(map, point.uv)));
+        const Vec3 tilt = (texel * 2.0f - 1.0f) * Vec3(scale, scale, 1.0f);
+        const Vec3 mapped = frame_with_tangent(smooth_normal, Vec3(tangent), tangent.w).world_from_local(tilt);
+        const float length = glm::length(mapped);
+        return length > 0.0f ? mapped / length : smooth_normal;
+    };
+    if (material.normal.valid()) shading_normal = mapped_normal(material.normal, material.normal_scale);
+    const float side = point.front_face ? 1.0f : -1.0f;
+    const Vec3 normal_towards_wo = bend_towards(side * shading_normal, point.geometric_normal, wo);
+    if (material.clearcoat.factor > 0.0f) {
+        const Vec3 coat = material.clearcoat.normal.valid()
+                              ? mapped_normal(material.clearcoat.normal, material.clearcoat.normal_scale)
+                              : smooth_normal;
+        point.coat_normal = bend_towards(side * coat, point.geometric_normal, wo);
+    }
+
+    // The frame follows the direction of the anisotropy: the tangent turned by the factor's angle and the texture's.
+    if (!anisotropic) {
+        point.shading = OrthonormalFrame::from_normal(normal_towards_wo);
+        return point;
+    }
+    Vec2 direction(std::cos(material.anisotropy.rotation_radians), std::sin(material.anisotropy.rotation_radians));
+    point.anisotropy_strength = material.anisotropy.strength;
+    if (material.anisotropy.texture.valid()) {
+        const Vec4 texel = lookup_linear(world.textures[material.anisotropy.texture.texture.value],
+                                         texture_uv(material.anisotropy.texture, point.uv));
+        const Vec2 turned = Vec2(texel) * 2.0f - 1.0f;
+        direction =
+            Vec2(direction.x * turned.x - direction.y * turned.y, direction.y * turned.x + direction.x * turned.y);
+        point.anisotropy_strength *= texel.b;
+    }
+    const OrthonormalFrame around = frame_with_tangent(smooth_normal, Vec3(tangent), tangent.w);
+    point.shading = frame_with_tangent(normal_towards_wo, around.world_from_local(Vec3(direction, 0.0f)), 1.0f);
     return point;
 }
 
-ShadedMaterial shade_material(const World& world, const SurfacePoint& point) noexcept {
-    const Material& material = world.materials[point.material];
-
-    // Base colour: factor, texture and vertex colour multiply.
-    Vec3 base_color = Vec3(material.base_color_factor) * Vec3(point.color);
-    if (material.base_color.valid()) {
-        base_color *= Vec3(
-            lookup_srgb(world.textures[material.base_color.texture.value], texture_uv(material.base_color, point.uv)));
-    }
-    ShadedMaterial shaded;
-    if (material.unlit) {
-        shaded.unlit = true;
-        shaded.emission = base_color;
-        return shaded;
-    }
-
-    float metallic = material.metallic_factor;
-    float roughness = material.roughness_factor;
-    if (material.metallic_roughness.valid()) {
-        const Vec4 texel = lookup_linear(world.textures[material.metallic_roughness.texture.value],
-                                         texture_uv(material.metallic_roughness, point.uv));
-        roughness *= texel.g;
-        metallic *= texel.b;
-    }
-    shaded.bsdf = make_bsdf(glm::clamp(base_color, 0.0f, 1.0f), metallic, roughness, material.ior,
-                            material.specular_factor, material.specular_color_factor);
-
-    if (material.emits() && (point.front_face || material.double_sided)) {
-        shaded.emission = material.emissive_factor * material.emissive_strength;
-        if (material.emissive.valid()) {
-            shaded.emission *= Vec3(
-                lookup_srgb(world.textures[material.emissive.texture.value], texture_uv(material.emissive, point.uv)));
-        }
-    }
-    return shaded;
+Vec2 texture_uv(const TextureRef& ref, const Vec2 uv[2]) noexcept {
+    return ref.uv_transform * Vec3(uv[ref.uv_set & 1u], 1.0f);
 }
 
-Vec3 emitted_radiance(const World& world, uint32_t surface_index, uint32_t triangle, float u, float v) noexcept {
-    const Surface& surface = world.surfaces[surface_index];
-    const Material& material = world.materials[surface.material];
-    // An EmissiveTriangle of a mirrored surface has its second and third vertex exchanged.
-    if (world.transforms[surface.transform].flips) std::swap(u, v);
-    Vec3 emission = material.emissive_factor * material.emissive_strength;
-    if (material.emissive.valid()) {
-        const Vec3u index = surface.primitive->triangles[triangle];
-        emission *=
-            Vec3(lookup_srgb(world.textures[material.emissive.texture.value],
-                             texture_uv(material.emissive, *surface.primitive, index, Vec3(1.0f - u - v, u, v))));
-    }
-    if (material.alpha_mode != AlphaMode::opaque) emission *= surface_opacity(world, surface_index, triangle, u, v);
-    return emission;
-}
-
-float surface_opacity(const World& world, uint32_t surface_index, uint32_t triangle, float u, float v) noexcept {
-    const Surface& surface = world.surfaces[surface_index];
-    const Primitive& primitive = *surface.primitive;
-    const Material& material = world.materials[surface.material];
-    if (material.alpha_mode == AlphaMode::opaque) return 1.0f;
-
-    const Vec3u index = primitive.triangles[triangle];
-    const Vec3 weight(1.0f - u - v, u, v);
-    float alpha = material.base_color_factor.a;
-    if (!primitive.colors.empty()) alpha *= interpolate(primitive.colors, index, weight).a;
-    if (material.base_color.valid()) {
-        alpha *= lookup_alpha(world.textures[material.base_color.texture.value],
-                              texture_uv(material.base_color, primitive, index, weight));
-    }
-    if (material.alpha_mode == AlphaMode::mask) return alpha >= material.alpha_cutoff ? 1.0f : 0.0f;
-    return std::clamp(alpha, 0.0f, 1.0f);
+Vec2 texture_uv(const TextureRef& ref, const Primitive& primitive, uint32_t triangle, float u, float v) noexcept {
+    const std::vector<Vec2>& uv = primitive.uv[ref.uv_set & 1u];
+    const Vec2 at = uv.empty() ? Vec2(0) : interpolate(uv, primitive.triangles[triangle], Vec3(1.0f - u - v, u, v));
+    return ref.uv_transform * Vec3(at, 1.0f);
 }
 
 }  // namespace candela

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// From a hit to something that scatters: interpolation, normal mapping, material evaluation.
+// From a hit to a point with a frame: interpolation and normal mapping.
 #pragma once
 
-#include "renderer/bsdf/bsdf.h"
 #include "renderer/math/frame.h"
 #include "renderer/world/world.h"
 
@@ -11,7 +10,11 @@ namespace candela {
 struct SurfacePoint {
     Vec3 position{0};          // on the triangle, world space
     Vec3 geometric_normal{0};  // unit, on the side of wo
-    OrthonormalFrame shading;  // its normal is on the side of wo, normal map applied
+    float error_m = 0;         // a ray that starts this far off, along the normal, does not meet the same triangle
+    // Its normal is on the side of wo, normal map applied; its tangent is the direction of the anisotropy.
+    OrthonormalFrame shading;
+    Vec3 coat_normal{0};            // unit, on the side of wo: that of KHR_materials_clearcoat, if the material has it
+    float anisotropy_strength = 0;  // texture applied
     Vec2 uv[2]{};
     Vec4 color{1};  // vertex colour
     uint32_t material = 0;
@@ -19,23 +22,14 @@ struct SurfacePoint {
     bool front_face = true;  // wo is on the front side of the triangle
 };
 
-// wo: unit, back along the ray. A shading normal that faces away from wo is bent until wo is just above its horizon, so
-// that no visible point is black for lack of a hemisphere.
+// wo: unit, back along the ray. A shading normal whose mirror direction leaves through the surface is bent until that
+// direction just grazes the surface, so that no visible point is black for lack of a hemisphere (Keller et al. 2017,
+// "The Iray Light Transport Simulation and Rendering System", section A.3).
 SurfacePoint make_surface_point(const World& world, const Hit& hit, const Vec3& wo) noexcept;
 
-// All textures of the material, evaluated once.
-struct ShadedMaterial {
-    Bsdf bsdf;
-    Vec3 emission{0};    // radiance towards wo; 0 on a side that does not emit
-    bool unlit = false;  // shows `emission` and scatters nothing (KHR_materials_unlit)
-};
-ShadedMaterial shade_material(const World& world, const SurfacePoint& point) noexcept;
-
-// Radiance that an emissive surface sends out from p0 + u·edge1 + v·edge2 of its EmissiveTriangle, on a side that
-// emits, times its opacity there.
-Vec3 emitted_radiance(const World& world, uint32_t surface, uint32_t triangle, float u, float v) noexcept;
-
-// Opacity 0..1 at (1-u-v)·p0 + u·p1 + v·p2: 1, the mask's decision, or the blend's alpha.
-float surface_opacity(const World& world, uint32_t surface, uint32_t triangle, float u, float v) noexcept;
+// The texture coordinate of a use of a texture, at a point whose coordinate sets are known, or at
+// (1-u-v)·p0 + u·p1 + v·p2 of a triangle.
+Vec2 texture_uv(const TextureRef& ref, const Vec2 uv[2]) noexcept;
+Vec2 texture_uv(const TextureRef& ref, const Primitive& primitive, uint32_t triangle, float u, float v) noexcept;
 
 }  // namespace candela

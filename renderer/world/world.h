@@ -24,7 +24,18 @@ struct Surface {
     uint32_t transform = 0;                   // index in World::transforms
     uint32_t first_emissive = invalid_index;  // Lights::triangles index of its triangle 0; invalid: does not emit
     uint32_t instance = 0;                    // Scene::instances index
+    uint32_t medium = invalid_index;          // World::media index of what the surface encloses; invalid: nothing
     bool positions_in_world = false;
+};
+
+// What fills a body: a placed material with KHR_materials_volume.
+struct Medium {
+    float ior = 1;
+    float dispersion = 0;  // 20 / Abbe number
+    Vec3 absorption{0};    // per metre: Beer-Lambert
+    // Where bodies overlap, the one of the highest rank is there: the smaller body, as ice in a drink and the drink in
+    // its glass.
+    uint32_t rank = 0;
 };
 
 struct SurfaceTransform {
@@ -39,6 +50,7 @@ struct World {
     std::vector<SurfaceTransform> transforms;
     std::vector<Material> materials;  // the scene's, with the default material last
     std::vector<TextureView> textures;
+    std::vector<Medium> media;
     Lights lights;
     // What the accelerator traverses: world-space vertices of meshes placed once, object-space ones of shared meshes.
     std::vector<std::vector<Vec3>> positions;

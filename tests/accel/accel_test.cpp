@@ -95,8 +95,8 @@ TEST(Accel, HitsAreThoseOfBruteForce) {
         EXPECT_NEAR(hit.distance, expected.distance, 1e-4f * (1 + expected.distance));
         EXPECT_NEAR(hit.u, expected.u, 2e-3f);
         EXPECT_NEAR(hit.v, expected.v, 2e-3f);
-        EXPECT_EQ(accel->transmittance({ray.origin, ray.direction, hit.distance * 1.001f}), 0);
-        EXPECT_EQ(accel->transmittance({ray.origin, ray.direction, hit.distance * 0.999f}), 1);
+        EXPECT_EQ(accel->transmittance({ray.origin, ray.direction, hit.distance * 1.001f}), Vec3(0));
+        EXPECT_EQ(accel->transmittance({ray.origin, ray.direction, hit.distance * 0.999f}), Vec3(1));
     }
     EXPECT_GT(hits, 300);
     EXPECT_LE(differing, 2);
@@ -127,9 +127,9 @@ TEST(Accel, LightIsWeakenedBySheetsOneByOne) {
     std::vector<std::vector<Vec3>> positions;
     const std::vector<Vec3u> triangles{{0, 1, 2}, {0, 2, 3}};
     const auto accel = make_sheets(opacities, positions, triangles);
-    EXPECT_FLOAT_EQ(accel->transmittance({{0.3f, 0.1f, 0}, {0, 0, 1}}), 0.75f * 0.5f);
-    EXPECT_FLOAT_EQ(accel->transmittance({{0.3f, 0.1f, 0}, {0, 0, 1}, 1.5f}), 0.75f);
-    EXPECT_FLOAT_EQ(accel->transmittance({{0.3f, 0.1f, 4}, {0, 0, -1}, 1.5f}), 1.0f);
+    EXPECT_EQ(accel->transmittance({{0.3f, 0.1f, 0}, {0, 0, 1}}), Vec3(0.75f * 0.5f));
+    EXPECT_EQ(accel->transmittance({{0.3f, 0.1f, 0}, {0, 0, 1}, 1.5f}), Vec3(0.75f));
+    EXPECT_EQ(accel->transmittance({{0.3f, 0.1f, 4}, {0, 0, -1}, 1.5f}), Vec3(1.0f));
 }
 
 TEST(Accel, RaysStopAtASheetAsOftenAsItIsOpaque) {
@@ -180,7 +180,7 @@ TEST(Accel, RaysThatAreNotFiniteHitNothing) {
 TEST(Accel, AnEmptySceneIsEmpty) {
     const auto accel = Accel::build({});
     EXPECT_FALSE(accel->intersect({{0, 0, 0}, {0, 0, 1}}, 0).valid());
-    EXPECT_EQ(accel->transmittance({{0, 0, 0}, {0, 0, 1}}), 1);
+    EXPECT_EQ(accel->transmittance({{0, 0, 0}, {0, 0, 1}}), Vec3(1));
     EXPECT_TRUE(accel->bounds().empty());
 }
 

@@ -3,6 +3,7 @@
 // Whatever loads must keep what the renderer relies on; what does not must end in LoadError.
 #include <random>
 
+#include "renderer/io/materials.h"
 #include "tests/io/document.h"
 
 namespace candela {
@@ -53,7 +54,20 @@ Document everything() {
           {{"KHR_materials_emissive_strength", {{"emissiveStrength", 2}}},
            {"KHR_materials_ior", {{"ior", 2}}},
            {"KHR_materials_specular",
-            {{"specularFactor", 1}, {"specularColorFactor", {1, 1, 1}}, {"specularTexture", {{"index", 0}}}}}}}}};
+            {{"specularFactor", 1}, {"specularColorFactor", {1, 1, 1}}, {"specularTexture", {{"index", 0}}}}},
+           {"KHR_materials_clearcoat",
+            {{"clearcoatFactor", 1},
+             {"clearcoatRoughnessFactor", 0.1},
+             {"clearcoatNormalTexture", {{"index", 0}, {"scale", 1}}}}},
+           {"KHR_materials_sheen", {{"sheenColorFactor", {1, 1, 1}}, {"sheenRoughnessFactor", 1}}},
+           {"KHR_materials_iridescence",
+            {{"iridescenceFactor", 1}, {"iridescenceIor", 1.3}, {"iridescenceThicknessMaximum", 300}}},
+           {"KHR_materials_anisotropy", {{"anisotropyStrength", 1}, {"anisotropyTexture", {{"index", 0}}}}},
+           {"KHR_materials_transmission", {{"transmissionFactor", 1}, {"transmissionTexture", {{"index", 0}}}}},
+           {"KHR_materials_diffuse_transmission", {{"diffuseTransmissionColorFactor", {1, 1, 1}}}},
+           {"KHR_materials_volume",
+            {{"thicknessFactor", 1}, {"attenuationDistance", 1}, {"attenuationColor", {1, 1, 1}}}},
+           {"KHR_materials_dispersion", {{"dispersion", 1}}}}}}};
     json["cameras"] = {
         {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}, {"aspectRatio", 1}}}},
         {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 1}}}}};
@@ -98,13 +112,15 @@ void expect_sound(const Scene& scene, const std::string& what) {
         }
     }
     for (const Material& m : scene.materials) {
-        for (const TextureRef* ref : {&m.base_color, &m.metallic_roughness, &m.normal, &m.occlusion, &m.emissive}) {
-            if (!ref->valid()) continue;
+        for (const TextureSlot& slot : texture_slots(m)) {
+            const TextureRef* ref = slot.ref;
             ASSERT_LT(ref->texture.value, scene.textures.size()) << what;
             ASSERT_LT(ref->uv_set, 2u) << what;
             ASSERT_LT(scene.textures[ref->texture.value].image.value, scene.images.size()) << what;
         }
-        ASSERT_TRUE(std::isfinite(m.emissive_strength) && m.ior >= 1.0f && m.roughness_factor >= 0.0f) << what;
+        ASSERT_TRUE(std::isfinite(m.emissive_strength) && (m.ior >= 1.0f || m.ior == 0.0f) &&
+                    m.roughness_factor >= 0.0f)
+            << what;
     }
     for (const Instance& instance : scene.instances) {
         ASSERT_LT(instance.mesh.value, scene.meshes.size()) << what;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "renderer/io/materials.h"
 #include "tests/io/document.h"
 #include "tests/support/shared_data.h"
 
@@ -38,7 +39,7 @@ TEST_F(Materials, DefaultsAreTheSpecifications) {
     EXPECT_EQ(m.alpha_cutoff, 0.5f);
     EXPECT_FALSE(m.double_sided || m.unlit);
     EXPECT_EQ(m.ior, 1.5f);
-    EXPECT_EQ(m.specular_factor, 1.0f);
+    EXPECT_EQ(m.specular.factor, 1.0f);
     EXPECT_FALSE(m.base_color.valid() || m.metallic_roughness.valid() || m.normal.valid() || m.occlusion.valid() ||
                  m.emissive.valid());
 }
@@ -100,10 +101,87 @@ TEST_F(Materials, Extensions) {
                        {"KHR_materials_unlit", Json::object()}}}});
     EXPECT_EQ(m.emissive_strength, 5e9f) << "beyond 32 bits";
     EXPECT_EQ(m.ior, 2.0f);
-    EXPECT_EQ(m.specular_factor, 0.5f);
-    EXPECT_EQ(m.specular_color_factor, Vec3(1, 2, 0.5f));
+    EXPECT_EQ(m.specular.factor, 0.5f);
+    EXPECT_EQ(m.specular.color_factor, Vec3(1, 2, 0.5f));
     EXPECT_TRUE(m.unlit);
     EXPECT_FALSE(m.emits());
+}
+
+TEST_F(Materials, LayersWithTheirTextures) {
+    const auto texture = [](int uv_set) { return Json{{"index", 0}, {"texCoord", uv_set}}; };
+    const Material m = material_of(
+        {{"extensions",
+          {{"KHR_materials_specular", {{"specularTexture", texture(0)}, {"specularColorTexture", texture(1)}}},
+           {"KHR_materials_clearcoat",
+            {{"clearcoatFactor", 0.5},
+             {"clearcoatTexture", texture(0)},
+             {"clearcoatRoughnessFactor", 0.25},
+             {"clearcoatRoughnessTexture", texture(1)},
+             {"clearcoatNormalTexture", {{"index", 0}, {"scale", 2}}}}},
+           {"KHR_materials_sheen",
+            {{"sheenColorFactor", {0.1, 0.2, 0.3}},
+             {"sheenColorTexture", texture(1)},
+             {"sheenRoughnessFactor", 0.75},
+             {"sheenRoughnessTexture", texture(1)}}},
+           {"KHR_materials_iridescence",
+            {{"iridescenceFactor", 0.5},
+             {"iridescenceTexture", texture(0)},
+             {"iridescenceIor", 1.4},
+             {"iridescenceThicknessMinimum", 50},
+             {"iridescenceThicknessMaximum", 500},
+             {"iridescenceThicknessTexture", texture(1)}}},
+           {"KHR_materials_anisotropy",
+            {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 1.5}, {"anisotropyTexture", texture(0)}}},
+           {"KHR_materials_transmission", {{"transmissionFactor", 0.5}, {"transmissionTexture", texture(0)}}},
+           {"KHR_materials_diffuse_transmission",
+            {{"diffuseTransmissionFactor", 0.25},
+             {"diffuseTransmissionTexture", texture(0)},
+             {"diffuseTransmissionColorFactor", {0.5, 0.25, 1}},
+             {"diffuseTransmissionColorTexture", texture(1)}}},
+           {"KHR_materials_volume",
+            {{"thicknessFactor", 0.5}, {"attenuationDistance", 2}, {"attenuationColor", {0.5, 1, 0.25}}}},
+           {"KHR_materials_dispersion", {{"dispersion", 0.5}}}}}});
+    EXPECT_EQ(m.specular.texture.uv_set, 0u);
+    EXPECT_EQ(m.specular.color.uv_set, 1u);
+    EXPECT_EQ(m.clearcoat.factor, 0.5f);
+    EXPECT_EQ(m.clearcoat.roughness_factor, 0.25f);
+    EXPECT_EQ(m.clearcoat.roughness.uv_set, 1u);
+    EXPECT_TRUE(m.clearcoat.normal.valid());
+    EXPECT_EQ(m.clearcoat.normal_scale, 2.0f);
+    EXPECT_EQ(m.sheen.color_factor, Vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(m.sheen.roughness_factor, 0.75f);
+    EXPECT_EQ(m.iridescence.ior, 1.4f);
+    EXPECT_EQ(m.iridescence.thickness_minimum_nm, 50.0f);
+    EXPECT_EQ(m.iridescence.thickness_maximum_nm, 500.0f);
+    EXPECT_EQ(m.anisotropy.strength, 0.5f);
+    EXPECT_EQ(m.anisotropy.rotation_radians, 1.5f);
+    EXPECT_EQ(m.transmission.factor, 0.5f);
+    EXPECT_EQ(m.diffuse_transmission.color_factor, Vec3(0.5f, 0.25f, 1));
+    EXPECT_EQ(m.volume.attenuation_distance_m, 2.0f);
+    EXPECT_EQ(m.volume.attenuation_color, Vec3(0.5f, 1, 0.25f));
+    EXPECT_EQ(m.volume.dispersion, 0.5f);
+    EXPECT_TRUE(m.has_volume());
+    EXPECT_EQ(texture_slots(m).size(), 13u);
+}
+
+TEST_F(Materials, SpecularGlossinessReplacesMetallicRoughness) {
+    const Material m = material_of({{"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 0, 1}}}},
+                                    {"extensions",
+                                     {{"KHR_materials_pbrSpecularGlossiness",
+                                       {{"diffuseFactor", {0.1, 0.2, 0.3, 0.4}},
+                                        {"specularFactor", {0.5, 0.6, 0.7}},
+                                        {"glossinessFactor", 0.25}}}}}});
+    EXPECT_EQ(m.base_color_factor, Vec4(0.1f, 0.2f, 0.3f, 0.4f));
+    EXPECT_EQ(m.specular.color_factor, Vec3(0.5f, 0.6f, 0.7f));
+    EXPECT_EQ(m.roughness_factor, 0.75f);
+    EXPECT_EQ(m.metallic_factor, 0.0f);
+}
+
+TEST_F(Materials, AnAttenuationDistanceOfNothingAbsorbsNothing) {
+    const Material m =
+        material_of({{"extensions", {{"KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationDistance", 0}}}}}});
+    EXPECT_EQ(m.volume.attenuation_distance_m, infinity);
+    EXPECT_TRUE(warned("/materials/0/extensions/KHR_materials_volume/attenuationDistance", "greater than 0"));
 }
 
 TEST_F(Materials, ValuesOutOfRangeAreClampedAndSaid) {

@@ -154,7 +154,7 @@ TEST_F(MeshTangents, MissingTextureCoordinatesAreSaid) {
     Document document = normal_mapped();
     document.json["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
     EXPECT_TRUE(first(load(document)).tangents.empty());
-    EXPECT_TRUE(warned("/meshes/0/primitives/0", "has no TEXCOORD_0 for its material's normalTexture"))
+    EXPECT_TRUE(warned("/meshes/0/primitives/0", "has no TEXCOORD_0 for its material's normal texture"))
         << all_warnings();
 }
 

@@ -8,7 +8,7 @@ MaterialId add_lambert(Scene& scene, const Vec3& albedo) {
     material.base_color_factor = Vec4(albedo, 1.0f);
     material.metallic_factor = 0.0f;
     material.roughness_factor = 1.0f;
-    material.specular_factor = 0.0f;
+    material.specular.factor = 0.0f;
     scene.materials.push_back(material);
     return {static_cast<uint32_t>(scene.materials.size() - 1)};
 }

@@ -3,7 +3,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "renderer/world/placement.h"
-#include "renderer/world/surface_point.h"
+#include "renderer/world/shaded_material.h"
 #include "tests/support/scenes.h"
 
 namespace candela {
@@ -97,10 +97,10 @@ TEST(BuildWorld, EmissiveTrianglesLieOnTheirSurfaceAndFaceItsFront) {
         ASSERT_TRUE(hit.valid());
         const SurfacePoint point = make_surface_point(*world, hit, toward_front);
         EXPECT_TRUE(point.front_face);
-        EXPECT_EQ(shade_material(*world, point).emission, Vec3(2, 3, 4));
+        EXPECT_EQ(shade_material(*world, point, toward_front).emission, Vec3(2, 3, 4));
         const SurfacePoint behind =
             make_surface_point(*world, shoot(*world, center - toward_front, toward_front), -toward_front);
-        EXPECT_EQ(shade_material(*world, behind).emission, Vec3(0));
+        EXPECT_EQ(shade_material(*world, behind, -toward_front).emission, Vec3(0));
     }
     EXPECT_NEAR(area, 2.0f, 1e-5f);
 }
@@ -139,8 +139,8 @@ TEST(SurfaceOpacity, MaskAndBlendFollowTheSpecification) {
     // Left half of the card blocks, right half lets through to the sheet that blocks a quarter.
     const Ray left{Vec3(0.1f, 0.5f, 1), Vec3(0, 0, -1), infinity};
     const Ray right{Vec3(0.9f, 0.5f, 1), Vec3(0, 0, -1), infinity};
-    EXPECT_EQ(world->accel->transmittance(left), 0.0f);
-    EXPECT_EQ(world->accel->transmittance(right), 0.75f);
+    EXPECT_EQ(world->accel->transmittance(left), Vec3(0));
+    EXPECT_EQ(world->accel->transmittance(right), Vec3(0.75f));
 }
 
 }  // namespace
