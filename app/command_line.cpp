@@ -187,6 +187,16 @@ ExitStatus dispatch(int argc, char** argv) {
     compare_command->add_option("--max-mae", compare.max_mae, "exit 1 above it")->type_name("V");
     compare_command->add_option("--max-flip", compare.max_flip, "exit 1 above it")->type_name("V");
 
+    ValidateOptions validate;
+    CLI::App* validate_command = app.add_subcommand("validate", "the path tracer against exact answers");
+    validate_command->add_flag("--json", validate.json, "as JSON");
+    validate_command->add_flag("--quiet", validate.quiet, "no progress");
+    validate_command->add_option("-o,--output", validate.output, "writes plots and the JSON there")->type_name("DIR");
+    validate_command->add_option("--seed", validate.seed, "of all random numbers (0)")->type_name("N");
+    validate_command->add_option("-t,--threads", validate.threads, "worker threads (all cores)")
+        ->check(CLI::Range(0u, 1024u))
+        ->type_name("N");
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -198,6 +208,7 @@ ExitStatus dispatch(int argc, char** argv) {
     }
     if (*info_command) return run_info(info);
     if (*compare_command) return run_compare(compare);
+    if (*validate_command) return run_validate(validate);
     render.command = joined(argc, argv);
     finish_render_options(raw, render);
     if (*render_command) return run_render(render);

@@ -12,5 +12,6 @@ ExitStatus run_screenshot(const RenderOptions& options, bool with_interface);
 ExitStatus run_render(const RenderOptions& options);
 ExitStatus run_info(const InfoOptions& options);
 ExitStatus run_compare(const CompareOptions& options);
+ExitStatus run_validate(const ValidateOptions& options);
 
 }  // namespace candela

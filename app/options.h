@@ -50,4 +50,12 @@ struct CompareOptions {
     std::optional<double> max_rmse, max_rel_mse, max_mae, max_flip;
 };
 
+struct ValidateOptions {
+    bool json = false;
+    bool quiet = false;
+    std::string output;  // folder of the plots
+    unsigned threads = 0;
+    uint32_t seed = 0;
+};
+
 }  // namespace candela

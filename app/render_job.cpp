@@ -124,17 +124,20 @@ std::shared_ptr<const World> with_environment(const std::shared_ptr<const World>
     return with_environment(world, place_environment(environment.get(), options));
 }
 
-std::filesystem::path default_scene() {
+std::filesystem::path assets_folder() {
     const std::filesystem::path name = "cornell_box.glb";
     std::error_code error;
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
     for (const std::filesystem::path& folder :
          {std::filesystem::path(CANDELA_ASSETS_SOURCE), program.parent_path() / "../share/candela/assets"}) {
-        if (std::filesystem::exists(folder / name, error)) return folder / name;
+        if (std::filesystem::exists(folder / name, error)) return folder;
     }
-    throw CommandError(
-        ExitStatus::unreadable_scene,
-        "cornell_box.glb: the scene that ships with candela is not where it was installed; name a SCENE");
+    throw CommandError(ExitStatus::unreadable_scene,
+                       "the scenes that ship with candela are not where they were installed; install them again");
+}
+
+std::filesystem::path default_scene() {
+    return assets_folder() / "cornell_box.glb";
 }
 
 RenderJob prepare_render(const RenderOptions& options, const std::function<void(const char*, double)>& progress,

@@ -21,6 +21,8 @@ struct RenderJob {
     double load_seconds = 0, build_seconds = 0;
 };
 
+// Where the scenes that ship with candela lie. Throws CommandError.
+std::filesystem::path assets_folder();
 // The scene that opens without one being named. Throws CommandError where the assets are not found.
 std::filesystem::path default_scene();
 

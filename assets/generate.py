@@ -149,11 +149,14 @@ class Glb:
         self.nodes.append(dict(name="camera", camera=len(self.cameras) - 1,
                                matrix=[*right, 0, *up, 0, *back, 0, *eye, 1]))
 
-    def point_light(self, position, intensity):
-        self.lights.append(dict(type="point", intensity=intensity))
+    def light(self, light, **place):
+        self.lights.append(light)
         self.extensions.add("KHR_lights_punctual")
-        self.nodes.append(dict(name="light", translation=list(position),
+        self.nodes.append(dict(name="light", **{key: list(value) for key, value in place.items()},
                                extensions=dict(KHR_lights_punctual=dict(light=len(self.lights) - 1))))
+
+    def point_light(self, position, intensity):
+        self.light(dict(type="point", intensity=intensity), translation=position)
 
     def pack(self):
         document = dict(asset=dict(version="2.0", generator="candela assets/generate.py", copyright="CC0"), scene=0,
@@ -209,9 +212,9 @@ def furnace_sphere():
     return g
 
 
-def integrating_sphere():
+def integrating_sphere(albedo=0.5):
     g = Glb()
-    g.sphere("sphere", g.material("wall", (0.5, 0.5, 0.5), lambert=True, emission=(1, 1, 1)), (0, 0, 0), 1, 48, smooth=False, inward=True)
+    g.sphere("sphere", g.material("wall", (albedo, albedo, albedo), lambert=True, emission=(1, 1, 1)), (0, 0, 0), 1, 48, smooth=False, inward=True)
     g.camera((0, 0, 0.1), (0, 0, 0), 60, 1.0)
     return g
 
@@ -297,8 +300,155 @@ def many_lights():
     return g
 
 
-SCENES = (cornell_box, strip_light, furnace_sphere, integrating_sphere, point_light_plane, veach_plates, glass_slab, alpha_cards,
-          many_lights)
+def lathe_ring(radius, y, corners):
+    return [(radius * math.cos(2 * math.pi * k / corners), y, -radius * math.sin(2 * math.pi * k / corners)) for k in range(corners)]
+
+
+# Scenes with exact answers, for `candela validate`. The plane is y = 0 and sees its light from above.
+
+def lambert_plane(g, half=4, color=(1, 1, 1)):
+    g.quad("plane", g.material("lambert", color, lambert=True), (-half, 0, half), (2 * half, 0, 0), (0, 0, -2 * half))
+
+
+def sky_plane():
+    g = Glb()
+    lambert_plane(g, 1, (0.25, 0.25, 0.25))
+    g.camera((0, 1, 1), (0, 0, 0), 40, 1.0)
+    return g
+
+
+def directional_light():
+    g = Glb()
+    lambert_plane(g)
+    # Tilted by 30 degrees from the zenith.
+    half = math.radians(30 - 90) / 2
+    g.light(dict(type="directional", intensity=2.0), rotation=(math.sin(half), 0, 0, math.cos(half)))
+    g.camera((0, 2, 3), (0, 0, 0), 45)
+    return g
+
+
+def spot_light():
+    g = Glb()
+    lambert_plane(g)
+    half = -math.pi / 4
+    g.light(dict(type="spot", intensity=10.0, spot=dict(innerConeAngle=0.4, outerConeAngle=0.8)), translation=(0, 1, 0),
+            rotation=(math.sin(half), 0, 0, math.cos(half)))
+    g.camera((0, 2, 3), (0, 0, 0), 45)
+    return g
+
+
+def disc_light():
+    """A disc of 64 corners and radius 0.5, one unit above the plane, facing down."""
+    g = Glb()
+    lambert_plane(g)
+    lamp = g.material("lamp", (0, 0, 0), lambert=True, emission=(1, 1, 1))
+    g.mesh("disc", lamp, [(0, 1, 0)] + lathe_ring(0.5, 1, 64), [(0, 1 + (k + 1) % 64, 1 + k) for k in range(64)])
+    g.camera((0, 0.9, 2), (0, 0, 0), 45)
+    return g
+
+
+def sphere_light():
+    """A ball of radius 0.5 two units above the plane, with a ring of 64 corners where the view from the origin touches it."""
+    g = Glb()
+    lambert_plane(g)
+    lamp = g.material("lamp", (0, 0, 0), lambert=True, emission=(1, 1, 1))
+    tangent = math.acos(0.5 / 2)  # from the downward axis
+    angles = [tangent * k / 8 for k in range(1, 9)] + [tangent + (math.pi - tangent) * k / 8 for k in range(1, 8)]
+    points = [(0, 1.5, 0)]
+    for angle in angles:
+        points += lathe_ring(0.5 * math.sin(angle), 2 - 0.5 * math.cos(angle), 64)
+    points.append((0, 2.5, 0))
+    at = lambda ring, k: 1 + 64 * ring + k % 64
+    triangles = [(0, at(0, k + 1), at(0, k)) for k in range(64)]
+    for ring in range(len(angles) - 1):
+        for k in range(64):
+            triangles += [(at(ring, k), at(ring, k + 1), at(ring + 1, k + 1)), (at(ring, k), at(ring + 1, k + 1), at(ring + 1, k))]
+    triangles += [(len(points) - 1, at(len(angles) - 1, k), at(len(angles) - 1, k + 1)) for k in range(64)]
+    g.mesh("ball", lamp, points, triangles)
+    g.camera((0, 1, 3), (0, 1, 0), 60)
+    return g
+
+
+def facing_squares():
+    g = Glb()
+    g.quad("receiver", g.material("lambert", (1, 1, 1), lambert=True), (-0.5, 0, 0.5), (1, 0, 0), (0, 0, -1))
+    g.quad("lamp", g.material("lamp", (0, 0, 0), lambert=True, emission=(1, 1, 1)), (-0.5, 1, -0.5), (1, 0, 0), (0, 0, 1))
+    g.camera((0, 0.5, 2.5), (0, 0.5, 0), 45)
+    return g
+
+
+def integrating_sphere_dark():
+    return integrating_sphere(0.9)
+
+
+def glass(g, ior=1.5, color=(1, 1, 1), distance=None, roughness=0.0):
+    volume = dict(thicknessFactor=1.0, attenuationColor=list(color))
+    if distance:
+        volume["attenuationDistance"] = distance
+    return g.material("glass", (1, 1, 1), 0, roughness, extensions={
+        "KHR_materials_transmission": dict(transmissionFactor=1.0), "KHR_materials_ior": dict(ior=ior), "KHR_materials_volume": volume})
+
+
+def slab(material_of):
+    """A slab one unit thick around z = 0 with a lamp of radiance 1 behind it and one before it."""
+    g = Glb()
+    g.block("slab", material_of(g), (0, 0, 0), (40, 40, 1))
+    g.quad("lamp", g.material("lamp", (0, 0, 0), lambert=True, emission=(1, 1, 1)), (-50, -50, -5), (100, 0, 0), (0, 100, 0))
+    g.camera((0, 0, 3), (0, 0, 0), 45)
+    return g
+
+
+def slab_clear():
+    return slab(glass)
+
+
+def slab_absorbing():
+    return slab(lambda g: glass(g, 1.5, (0.25, 0.25, 0.25), 2.0))
+
+
+def slab_index_one():
+    return slab(lambda g: glass(g, 1.0, (0.25, 0.25, 0.25), 2.0))
+
+
+def slab_mirror():
+    g = Glb()
+    g.block("slab", glass(g), (0, 0, 0), (40, 40, 1))
+    g.quad("lamp", g.material("lamp", (0, 0, 0), lambert=True, emission=(1, 1, 1)), (-50, 50, 9), (100, 0, 0), (0, -100, 0))
+    g.camera((0, 0, 3), (0, 0, 0), 45)
+    return g
+
+
+def furnace_glass():
+    g = Glb()
+    g.sphere("ball", glass(g), (0, 0, 0), 1, 64, smooth=False)
+    g.sphere("stone", g.material("lambert", (1, 1, 1), lambert=True), (0, 0, 0), 0.6, 32, smooth=False)
+    g.camera((0, 0, 4), (0, 0, 0), 40, 1.0)
+    return g
+
+
+def furnace_drink():
+    g = Glb()
+    g.block("glass", glass(g, 1.5), (0, 0, 0), (2, 2, 2))
+    g.block("drink", glass(g, 1.33), (0.025, 0.05, 0.075), (1.65, 1.5, 1.65))
+    g.block("ice", glass(g, 1.31), (0.125, 0.15, 0.1), (0.65, 0.5, 0.5), 0.3)
+    g.camera((1.5, 1.2, 5), (0, 0, 0), 40, 1.0)
+    return g
+
+
+def lens_target():
+    """A lamp of 64 corners and radius 0.005 at the origin, seen from +Z."""
+    g = Glb()
+    lamp = g.material("lamp", (0, 0, 0), lambert=True, emission=(1, 1, 1))
+    ring = [(x, -z, 0) for x, y, z in lathe_ring(0.005, 0, 64)]
+    g.mesh("disc", lamp, [(0, 0, 0)] + ring, [(0, 1 + k, 1 + (k + 1) % 64) for k in range(64)])
+    g.camera((0, 0, 2), (0, 0, 0), 2, 1.0)
+    return g
+
+
+SCENES = (cornell_box, veach_plates, glass_slab, alpha_cards, many_lights)
+VALIDATION_SCENES = (strip_light, point_light_plane, furnace_sphere, furnace_glass, furnace_drink, integrating_sphere,
+                     integrating_sphere_dark, sky_plane, directional_light, spot_light, disc_light, sphere_light, facing_squares,
+                     slab_clear, slab_absorbing, slab_index_one, slab_mirror, lens_target)
 
 
 def sky_hdr(width=512, height=256):
@@ -338,6 +488,9 @@ def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent)
     for scene in SCENES:
         (folder / (scene.__name__ + ".glb")).write_bytes(scene().pack())
+    (folder / "validation").mkdir(parents=True, exist_ok=True)
+    for scene in VALIDATION_SCENES:
+        (folder / "validation" / (scene.__name__ + ".glb")).write_bytes(scene().pack())
     (folder / "sky.hdr").write_bytes(sky_hdr())
 
 

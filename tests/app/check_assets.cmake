@@ -3,7 +3,7 @@
 file(REMOVE_RECURSE ${OUT})
 file(MAKE_DIRECTORY ${OUT})
 execute_process(COMMAND ${PYTHON} ${ASSETS}/generate.py ${OUT} COMMAND_ERROR_IS_FATAL ANY)
-file(GLOB made RELATIVE ${OUT} ${OUT}/*)
+file(GLOB_RECURSE made RELATIVE ${OUT} ${OUT}/*)
 foreach(name IN LISTS made)
     file(SHA256 ${OUT}/${name} fresh)
     file(SHA256 ${ASSETS}/${name} committed)

@@ -195,6 +195,36 @@ TEST(Glass, NestedBodiesReflectByTheIndicesThatMeet) {
     expect_exact(measure(*world, look_along_z(), {}, 32, 16384), t, 1e-3, "glass, water, glass");
 }
 
+TEST(Glass, WhereBodiesOverlapTheSmallerOneIsThere) {
+    // A slab of absorbing glass and a smaller clear one that reaches 0.2 into it: the glass ends where the other
+    // begins.
+    for (const bool small_one_first : {false, true}) {
+        Scene scene;
+        const MaterialId tinted = add_glass(scene, 1.6f), clear = add_glass(scene, 1.3f);
+        material(scene, tinted).volume.attenuation_color = Vec3(0.5f);
+        material(scene, tinted).volume.attenuation_distance_m = 1;
+        const auto add_small = [&] { add_object(scene, make_box(Vec3(-19, -19, 0), Vec3(19, 19, 1)), clear); };
+        if (small_one_first) add_small();
+        add_object(scene, make_box(Vec3(-20, -20, -1), Vec3(20, 20, 0.2f)), tinted);
+        if (!small_one_first) add_small();
+        add_lamp_behind(scene, -5);
+        const auto world = build(std::move(scene));
+        // From behind: light crosses 1.6|1, 1 unit of tint, 1.3|1.6, 1|1.3. Layers add up as R₁ + T₁²R₂/(1 − R₁′R₂).
+        const auto reflectance = [](double a, double b) { return std::pow((a - b) / (a + b), 2); };
+        double r_back = reflectance(1.6, 1), t = 1 - r_back;
+        const double tint = 0.5;
+        t *= tint;
+        r_back *= tint * tint;  // seen through the tint
+        for (const double f : {reflectance(1.3, 1.6), reflectance(1, 1.3)}) {
+            const double next_t = t * (1 - f) / (1 - r_back * f);
+            r_back = f + (1 - f) * (1 - f) * r_back / (1 - r_back * f);
+            t = next_t;
+        }
+        expect_exact(measure(*world, look_along_z(), {}, 32, 16384), t, 1e-3,
+                     small_one_first ? "small one first" : "large one first");
+    }
+}
+
 TEST(Glass, FurnaceWithRoughGlassReadsOneToItsTable) {
     for (const float roughness : {0.3f, 0.6f}) {
         Scene scene;
@@ -272,7 +302,43 @@ TEST(Glass, DiffuseTransmissionLightsTheOtherSide) {
     }
 }
 
-TEST(Glass, DispersionBendsButKeepsWhiteWhite) {
+TEST(Glass, DispersionBendsBlueMoreThanRed) {
+    // Through a tilted slab, at the edge of the lamp where the d line just sees it.
+    constexpr double n = 1.6, theta = 0.7;
+    const double sine = std::sin(theta), cosine = std::cos(theta);
+    const double shift = 10 * sine * (1 - cosine / std::sqrt(n * n - sine * sine));
+    Scene scene;
+    const MaterialId flint = add_glass(scene, 1.6f);
+    material(scene, flint).volume.dispersion = 1;
+    add_object(scene, make_box(Vec3(-90, -90, -5), Vec3(90, 90, 5)), flint);
+    add_object(scene, make_quad(Vec3(-50, -50, -7), Vec3(50, 0, 0), Vec3(0, 100, 0)), add_emitter(scene, Vec3(1)));
+    const auto world = build(std::move(scene));
+    const Vec3 along(-static_cast<float>(sine), 0, -static_cast<float>(cosine)),
+        across(static_cast<float>(cosine), 0, -static_cast<float>(sine));
+    IntegratorSettings settings;
+    settings.filter = PixelFilter::box;
+    RayCounts counts;
+    const auto seen_at = [&](double offset) {
+        const Vec3 at = Vec3(0, 0.234f, -7) + static_cast<float>(offset) * across;
+        const View view = look_at_point(at - 30.0f * along, at, Vec3(0, 1, 0));
+        glm::dvec3 sum(0);
+        for (uint32_t i = 0; i < 16384; ++i)
+            sum += glm::dvec3(trace_sample(*world, view, settings, {0, 0, i}, counts).radiance) / 16384.0;
+        return sum;
+    };
+    // The slab moves what is seen towards one side: by sign, the one where the edge appears.
+    const glm::dvec3 one = seen_at(shift), other = seen_at(-shift);
+    const bool takes_one = std::abs(one.x - one.z) > std::abs(other.x - other.z);
+    const glm::dvec3 edge = takes_one ? one : other;
+    EXPECT_GT(std::abs(edge.z - edge.x), 0.5) << edge.x << " " << edge.y << " " << edge.z;
+    // A step further in or out of the lamp all colours agree.
+    for (const double step : {-0.5, 0.5}) {
+        const glm::dvec3 away = seen_at((takes_one ? shift : -shift) + step);
+        EXPECT_NEAR(away.x, away.z, 0.02) << step;
+    }
+}
+
+TEST(Glass, DispersionKeepsWhiteWhite) {
     Scene scene;
     const MaterialId prism = add_glass(scene, 1.6f);
     material(scene, prism).volume.dispersion = 1;

@@ -189,7 +189,7 @@ TEST_F(ViewerTest, TheNewestOfSeveralDroppedScenesWins) {
 }
 
 TEST_F(ViewerTest, ADroppedEnvironmentLightsTheScene) {
-    start(options_for("assets/furnace_sphere.glb"));
+    start(options_for("assets/validation/furnace_sphere.glb"));
     viewer_->handle(FilesDropped{{"assets/sky.hdr"}, {}});
     finish();
     ASSERT_NE(model().job.environment, nullptr);
