@@ -54,6 +54,9 @@ void add_render_options(CLI::App& command, RenderOptions& options, RawRenderOpti
                                                   {"neutral", ToneCurve::neutral},
                                                   {"aces", ToneCurve::aces},
                                                   {"agx", ToneCurve::agx}};
+    const std::map<std::string, Projection> projections{{"perspective", Projection::perspective},
+                                                        {"orthographic", Projection::orthographic},
+                                                        {"panorama", Projection::panorama}};
     command.add_option("scene", options.scene, "a .gltf or .glb file; without it the Cornell box")->type_name("SCENE");
     command.add_option("--resolution", raw.resolution, "picture size")->type_name("WxH");
     command.add_option("--camera", options.camera, "a camera of the file by name or index")->type_name("NAME|INDEX");
@@ -69,6 +72,14 @@ void add_render_options(CLI::App& command, RenderOptions& options, RawRenderOpti
     command.add_option("--focus", options.focus_m, "distance in focus in metres")
         ->check(CLI::PositiveNumber)
         ->type_name("M");
+    command.add_option("--blades", options.blades, "blades of the lens's aperture, from 3 (0: round)")
+        ->check(CLI::Range(0u, 64u))
+        ->check([](const std::string& text) { return text == "1" || text == "2" ? "must be 0 or at least 3" : ""; })
+        ->type_name("N");
+    command
+        .add_option("--projection", options.projection,
+                    "perspective, orthographic or panorama: the whole sphere (the camera's own)")
+        ->transform(CLI::CheckedTransformer(projections));
     command.add_option("--spp", options.spp, "samples per pixel")->check(CLI::Range(1u, 1u << 30))->type_name("N");
     command.add_option("--time", options.seconds, "seconds of rendering")->check(CLI::PositiveNumber)->type_name("S");
     command.add_option("--until-error", options.until_error_percent, "estimated mean relative error in percent")

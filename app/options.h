@@ -8,6 +8,7 @@
 
 #include "renderer/image/tone.h"
 #include "renderer/integrator/settings.h"
+#include "renderer/scene/camera.h"
 
 namespace candela {
 
@@ -20,6 +21,8 @@ struct RenderOptions {
     std::optional<Vec3> eye, target, up;
     std::optional<float> fov_degrees;
     std::optional<float> aperture_m, focus_m;
+    uint32_t blades = 0;  // of the aperture; 0: round
+    std::optional<Projection> projection;
     std::optional<uint32_t> spp;
     std::optional<double> seconds;
     std::optional<double> until_error_percent;

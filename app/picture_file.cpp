@@ -16,7 +16,8 @@ std::string describe_camera(const Camera& camera) {
     const Mat4& m = camera.world_from_camera;
     return fmt::format("eye {},{},{} forward {},{},{} up {},{},{} {}", m[3].x, m[3].y, m[3].z, -m[2].x, -m[2].y,
                        -m[2].z, m[1].x, m[1].y, m[1].z,
-                       camera.projection == Projection::perspective
+                       camera.projection == Projection::panorama ? "panorama"
+                       : camera.projection == Projection::perspective
                            ? fmt::format("yfov {} degrees", glm::degrees(camera.yfov_radians))
                            : fmt::format("height {} m", 2 * camera.ortho_half_height_m));
 }

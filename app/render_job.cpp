@@ -85,6 +85,15 @@ Camera choose_camera(const RenderOptions& options, const Scene& scene, const Bou
         camera = frame_bounds(bounds, aspect);
     }
     if (options.fov_degrees) camera.yfov_radians = glm::radians(*options.fov_degrees);
+    if (options.projection) {
+        // An orthographic picture spans what the perspective one does at the plane in focus.
+        if (*options.projection == Projection::orthographic && camera.projection == Projection::perspective) {
+            camera.ortho_half_height_m = camera.focus_distance_m * std::tan(0.5f * camera.yfov_radians);
+        }
+        camera.projection = *options.projection;
+        if (camera.projection == Projection::panorama) camera.aspect = 2.0f;
+    }
+    camera.aperture_blades = options.blades;
     if (options.aperture_m) camera.aperture_diameter_m = *options.aperture_m;
     if (options.focus_m) camera.focus_distance_m = *options.focus_m;
     return camera;

@@ -63,9 +63,7 @@ OrderedJson describe(const Scene& scene, const Diagnostics& diagnostics) {
     }
     out["cameras"] = OrderedJson::array();
     for (const CameraInstance& camera : scene.cameras) {
-        out["cameras"].push_back(
-            {{"name", camera.name},
-             {"projection", camera.camera.projection == Projection::perspective ? "perspective" : "orthographic"}});
+        out["cameras"].push_back({{"name", camera.name}, {"projection", name_of(camera.camera.projection)}});
     }
     out["animations"] = scene.animation_names;
     out["extensions"] = OrderedJson::array();

@@ -119,18 +119,32 @@ std::string validation_json(const std::vector<ValidationResult>& results, const 
 std::string strip_light_plot(const std::vector<ValidationResult>& results) {
     SvgPlot plot;
     plot.title = "Strip light over a white plane: reflected radiance, bars of 4 standard errors";
-    plot.x = {"p, distance from the middle [m]", 0, 3.2, false};
+    plot.x = {"p, distance from the middle [m]", -0.15, 3.2, false};
     plot.y = {"L(p)", 0, 0.8, false};
-    plot.series.push_back(curve("exact", 0, 3.2, false, strip_light_radiance));
+    plot.series.push_back(curve("exact", plot.x.lower, 3.2, false, strip_light_radiance));
     for (const Estimator estimator : {Estimator::mis, Estimator::light, Estimator::bsdf})
         plot.series.push_back(measured(results, "strip light", "p = ", {estimator, SamplerKind::sobol}));
-    return plot.text();
+    // The bars are smaller than the dots there: the differences by themselves.
+    SvgPlot difference;
+    difference.title = "Estimate over exact value, bars of 4 standard errors";
+    difference.x = plot.x;
+    difference.y = {"difference [%]", -0.4, 0.4, false};
+    difference.series.push_back(curve("exact", difference.x.lower, 3.2, false, [](double) { return 0.0; }));
+    for (size_t k = 1; k < plot.series.size(); ++k) {
+        PlotSeries series = plot.series[k];
+        for (PlotPoint& p : series.points) {
+            const double exact = strip_light_radiance(p.x);
+            p = {p.x, 100 * (p.y / exact - 1), 100 * p.bar / exact};
+        }
+        difference.series.push_back(series);
+    }
+    return stack_plots({plot, difference});
 }
 
 std::string point_light_plot(const std::vector<ValidationResult>& results) {
     SvgPlot irradiance;
     irradiance.title = "Point light of 100 W, 1 m above a plane: irradiance";
-    irradiance.x = {"r [m]", 0, 5.2, false};
+    irradiance.x = {"r [m]", -0.15, 5.2, false};
     irradiance.y = {"E(r) [W/m2]", 0, 9, false};
     irradiance.series.push_back(curve("exact", 0, 5.2, false, point_light_irradiance));
     irradiance.series.push_back(measured(results, "point light", "r = ", {}));

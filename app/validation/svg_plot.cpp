@@ -87,6 +87,10 @@ std::string draw_points(const SvgPlot& plot, const PlotSeries& series, const cha
 std::string draw(const SvgPlot& plot) {
     std::string out = axes(plot);
     size_t measured = 0;
+    size_t longest = 0;
+    for (const PlotSeries& series : plot.series)
+        longest = std::max(longest, series.label.size());
+    const double legend_x = width - right - 40 - 7.6 * static_cast<double>(longest);
     double legend_y = top + 22;
     for (const PlotSeries& series : plot.series) {
         const bool is_exact = series.style == PlotStyle::line;
@@ -98,7 +102,6 @@ std::string draw(const SvgPlot& plot) {
             out += draw_points(plot, series, color, plot.series.size() > 2 ? shift : 0.0);
         if (!is_exact) ++measured;
 
-        const double legend_x = width - right - 190;
         out +=
             is_exact
                 ? fmt::format(

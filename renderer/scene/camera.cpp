@@ -16,9 +16,34 @@ Vec2 half_extent(const Camera& camera, float aspect) {
     return {half_height * aspect, half_height};
 }
 
+// Uniform over the aperture of diameter 2: a disc, or the polygon of its blades, one of whose equal triangles is chosen
+// by the first number.
+Vec2 sample_aperture(uint32_t blades, const Vec2& u) {
+    if (blades < 3) return sample_disc(u);
+    const auto count = static_cast<float>(blades);
+    const float blade = std::min(std::floor(u.x * count), count - 1.0f);
+    const Vec2 at = sample_triangle({u.x * count - blade, u.y});
+    const auto corner = [&](float k) {
+        const float angle = 2.0f * pi * k / count;
+        return Vec2(std::sin(angle), std::cos(angle));
+    };
+    return at.x * corner(blade) + at.y * corner(blade + 1.0f);
+}
+
+Ray panorama_ray(const Camera& camera, const Vec2& film_uv) {
+    const float azimuth = 2.0f * pi * (film_uv.x - 0.5f), elevation = pi * (0.5f - film_uv.y);
+    const Vec3 direction(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+                         -std::cos(azimuth) * std::cos(elevation));
+    Ray ray;
+    ray.origin = camera.position();
+    ray.direction = glm::normalize(Mat3(camera.world_from_camera) * direction);
+    return ray;
+}
+
 }  // namespace
 
 Ray generate_ray(const Camera& camera, float aspect, const Vec2& film_uv, const Vec2& lens_uv) noexcept {
+    if (camera.projection == Projection::panorama) return panorama_ray(camera, film_uv);
     const Vec2 on_film = Vec2(2.0f * film_uv.x - 1.0f, 1.0f - 2.0f * film_uv.y) * half_extent(camera, aspect);
     const Mat3 rotation(camera.world_from_camera);
     Vec3 origin(0);
@@ -31,7 +56,7 @@ Ray generate_ray(const Camera& camera, float aspect, const Vec2& film_uv, const 
     // All rays of a pixel meet in the plane in focus, whatever point of the lens they pass.
     if (camera.aperture_diameter_m > 0.0f) {
         const Vec3 in_focus = origin + camera.focus_distance_m * direction;
-        const Vec2 on_lens = 0.5f * camera.aperture_diameter_m * sample_disc(lens_uv);
+        const Vec2 on_lens = 0.5f * camera.aperture_diameter_m * sample_aperture(camera.aperture_blades, lens_uv);
         origin += Vec3(on_lens, 0.0f);
         direction = in_focus - origin;
     }
@@ -43,6 +68,11 @@ Ray generate_ray(const Camera& camera, float aspect, const Vec2& film_uv, const 
 
 Vec3 project(const Camera& camera, float aspect, const Vec3& world_point) noexcept {
     const Vec3 p = glm::transpose(Mat3(camera.world_from_camera)) * (world_point - camera.position());
+    if (camera.projection == Projection::panorama) {
+        const float distance = std::max(glm::length(p), 1e-30f);
+        return {0.5f + 0.5f * inv_pi * std::atan2(p.x, -p.z),
+                0.5f - inv_pi * std::asin(std::clamp(p.y / distance, -1.0f, 1.0f)), distance};
+    }
     Vec2 on_film = Vec2(p) / half_extent(camera, aspect);
     if (camera.projection == Projection::perspective) on_film /= -p.z;
     return {0.5f + 0.5f * on_film.x, 0.5f - 0.5f * on_film.y, -p.z};

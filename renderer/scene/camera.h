@@ -7,7 +7,9 @@
 
 namespace candela {
 
-enum class Projection : uint8_t { perspective, orthographic };
+// panorama: the whole sphere, equirectangular: the column in the middle looks along the view axis, the row in the
+// middle at the horizon; columns run clockwise seen from above.
+enum class Projection : uint8_t { perspective, orthographic, panorama };
 
 struct Camera {
     // Columns are right, up, back (the camera looks along -Z) and position; orthonormal rotation part.
@@ -17,19 +19,28 @@ struct Camera {
     float ortho_half_height_m = 1.0f;  // half the height that the picture spans
     float aspect = 0.0f;               // width / height that the file asks for; 0: none
     float aperture_diameter_m = 0.0f;  // 0: pinhole
-    float focus_distance_m = 1.0f;     // distance of the plane in focus, along the view axis
+    // Blades of the aperture: a regular polygon inscribed in its circle, one corner up. Fewer than 3: the circle.
+    uint32_t aperture_blades = 0;
+    float focus_distance_m = 1.0f;  // distance of the plane in focus, along the view axis
 
     Vec3 position() const { return Vec3(world_from_camera[3]); }
     Vec3 forward() const { return -Vec3(world_from_camera[2]); }
     bool operator==(const Camera&) const = default;
 };
 
+inline const char* name_of(Projection projection) {
+    return projection == Projection::perspective ? "perspective"
+           : projection == Projection::panorama  ? "panorama"
+                                                 : "orthographic";
+}
+
 // The ray through film_uv for a picture of width / height = aspect. film_uv is (0,0) at the top left and (1,1) at the
 // bottom right of the picture, lens_uv in [0,1)² picks the point on the lens. aspect replaces the camera's own; the
-// vertical angle stays. The direction is a unit vector.
+// vertical angle stays. A panorama has no lens. The direction is a unit vector.
 Ray generate_ray(const Camera& camera, float aspect, const Vec2& film_uv, const Vec2& lens_uv) noexcept;
 
-// Where a world point appears: film_uv in xy, distance along the view axis in z (negative behind a perspective camera).
+// Where a world point appears: film_uv in xy, distance along the view axis in z (negative behind a perspective camera;
+// from the eye for a panorama).
 Vec3 project(const Camera& camera, float aspect, const Vec3& world_point) noexcept;
 
 // world_from_camera of a camera at eye that looks at target; up need not be perpendicular, and may be parallel to the

@@ -95,5 +95,44 @@ TEST(Camera, FrameBoundsShowsEveryCornerAndLittleElse) {
     EXPECT_TRUE(is_finite(frame_bounds({}, 1).position()));
 }
 
+TEST(Camera, PanoramaSeesEveryDirectionAndProjectUndoesIt) {
+    Camera camera = make_camera(Projection::panorama);
+    const auto seen = [&](const Vec2& uv) { return generate_ray(camera, 2, uv, Vec2(0.3f)).direction; };
+    EXPECT_LT(glm::distance(seen({0.5f, 0.5f}), camera.forward()), 1e-5f);
+    EXPECT_LT(glm::distance(seen({0.75f, 0.5f}), Vec3(camera.world_from_camera[0])), 1e-5f) << "right of the middle";
+    EXPECT_LT(glm::distance(seen({0.1f, 0}), Vec3(camera.world_from_camera[1])), 1e-5f) << "the top row is up";
+    for (const Vec2 uv : {Vec2(0.5f), Vec2(0.02f, 0.9f), Vec2(0.8f, 0.3f)}) {
+        const Vec3 at = project(camera, 2, camera.position() + 7.0f * seen(uv));
+        EXPECT_LT(glm::distance(Vec2(at), uv), 1e-4f);
+        EXPECT_NEAR(at.z, 7, 1e-4f);
+    }
+}
+
+TEST(Camera, BladesMakeAPolygon) {
+    Camera camera;
+    camera.aperture_diameter_m = 2;
+    camera.focus_distance_m = 5;
+    std::mt19937 engine{1};
+    const auto random = [&] { return static_cast<float>(engine() >> 8) * 0x1p-24f; };
+    for (const uint32_t blades : {3u, 5u, 6u}) {
+        camera.aperture_blades = blades;
+        const float inner = std::cos(pi / static_cast<float>(blades));
+        double second_moment = 0;
+        constexpr int count = 20000;
+        for (int i = 0; i < count; ++i) {
+            const Vec2 p(generate_ray(camera, 1, Vec2(0.5f), {random(), random()}).origin);
+            // Inside all edges, whose normals point between the corners.
+            for (uint32_t k = 0; k < blades; ++k) {
+                const float angle = 2 * pi * (static_cast<float>(k) + 0.5f) / static_cast<float>(blades);
+                ASSERT_LE(glm::dot(p, Vec2(std::sin(angle), std::cos(angle))), inner + 1e-5f);
+            }
+            second_moment += static_cast<double>(glm::dot(p, p)) / count;
+        }
+        // Uniform over a regular polygon of circumradius 1: E[r²] = (2 + cos(2π/n)) / 6.
+        const double exact = (2 + std::cos(2 * static_cast<double>(pi) / blades)) / 6;
+        EXPECT_NEAR(second_moment, exact, 0.01) << blades;
+    }
+}
+
 }  // namespace
 }  // namespace candela
