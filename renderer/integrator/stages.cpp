@@ -125,12 +125,13 @@ Ray shadow_ray(const World& world, const SurfacePoint& point, const LightSample&
 
     Vec3 target = point.position + light.distance * light.wi;
     if (light.surface != invalid_index) {
-        const EmissiveTriangle& triangle =
-            world.lights.triangles[world.surfaces[light.surface].first_emissive + light.triangle];
-        const Vec3 normal = glm::normalize(glm::cross(triangle.edge1, triangle.edge2));
-        const float error_m =
-            surface_error_m(glm::abs(triangle.p0) + glm::abs(triangle.edge1) + glm::abs(triangle.edge2), normal);
-        target = offset_ray_origin(triangle.p0 + light.u * triangle.edge1 + light.v * triangle.edge2,
+        const EmissiveTriangle& cell = world.lights.triangles[light.emissive];
+        const Vec3 normal = glm::normalize(glm::cross(cell.edge1, cell.edge2));
+        const Vec2 at = (Vec2(light.u, light.v) - cell.corner) / cell.scale;
+        // The intersector knows the whole triangle, not the cell.
+        const float error_m = surface_error_m(
+            glm::abs(cell.p0) + 2.0f * (glm::abs(cell.edge1) + glm::abs(cell.edge2)) / std::abs(cell.scale), normal);
+        target = offset_ray_origin(cell.p0 + at.x * cell.edge1 + at.y * cell.edge2,
                                    glm::dot(normal, light.wi) < 0.0f ? normal : -normal, error_m);
     }
     const Vec3 segment = target - ray.origin;
@@ -222,8 +223,11 @@ ShadowRequest shade(const World& world, const IntegratorSettings& settings, cons
         float light_pdf = 0.0f;
         const uint32_t first_emissive = world.surfaces[point.surface].first_emissive;
         if (!path.from_delta && first_emissive != invalid_index) {
-            light_pdf = triangle_light_pdf(world.lights, first_emissive + point.triangle, path.vertex,
-                                           path.ray.direction, glm::length(point.position - path.vertex));
+            const bool flips = world.transforms[world.surfaces[point.surface].transform].flips;
+            const uint32_t cell = world.lights.cells[first_emissive + point.triangle].index_at(flips ? hit.v : hit.u,
+                                                                                               flips ? hit.u : hit.v);
+            light_pdf = triangle_light_pdf(world.lights, cell, path.vertex, path.ray.direction,
+                                           glm::length(point.position - path.vertex));
         }
         const float weight = found_light_weight(settings, path, light_pdf);
         if (weight > 0.0f) gather(settings, path, weight * material.emission, path.depth, path.radiance);

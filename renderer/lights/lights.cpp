@@ -111,10 +111,22 @@ LightSample sample_triangle_light(const EmissiveTriangle& light, const Vec3& fro
     out.weight = Vec3(1.0f / out.pdf);
     out.surface = light.surface;
     out.triangle = light.triangle;
+    out.u = light.corner.x + light.scale * out.u;
+    out.v = light.corner.y + light.scale * out.v;
     return out;
 }
 
 }  // namespace
+
+uint32_t EmissiveCells::index_at(float u, float v) const {
+    if (cells_per_edge == 1) return first;
+    const auto n = static_cast<int>(cells_per_edge);
+    const float x = u * static_cast<float>(n), y = v * static_cast<float>(n);
+    const int i = std::clamp(static_cast<int>(x), 0, n - 1);
+    const int j = std::clamp(static_cast<int>(y), 0, n - 1 - i);
+    const bool upside_down = i + j < n - 1 && (x - static_cast<float>(i)) + (y - static_cast<float>(j)) > 1.0f;
+    return first + static_cast<uint32_t>(i * (2 * n - i) + 2 * j + (upside_down ? 1 : 0));
+}
 
 void finish_lights(Lights& lights, const Bounds3& scene_bounds) {
     const float radius = std::max(scene_bounds.radius(), 1e-3f);
@@ -158,7 +170,10 @@ LightSample sample_light(const Lights& lights, const Vec3& from, float u_pick, c
     const float probability = choice.probability * (1.0f - p_environment);
     if (!(probability > 0.0f)) return {};
     if (choice.index < lights.punctual.size()) return sample_punctual(lights.punctual[choice.index], from, probability);
-    return sample_triangle_light(lights.triangles[choice.index - lights.punctual.size()], from, u, probability);
+    const auto emissive = static_cast<uint32_t>(choice.index - lights.punctual.size());
+    LightSample out = sample_triangle_light(lights.triangles[emissive], from, u, probability);
+    out.emissive = emissive;
+    return out;
 }
 
 float triangle_light_pdf(const Lights& lights, uint32_t emissive_index, const Vec3& from, const Vec3& wi,

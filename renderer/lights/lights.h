@@ -14,13 +14,27 @@
 
 namespace candela {
 
-// A triangle of an emissive surface, in world space.
+// A triangle of an emissive surface, in world space, or one of the equal cells that a triangle of uneven emission is
+// cut into, so that choosing a cell by its power follows the texture.
 struct EmissiveTriangle {
     Vec3 p0, edge1, edge2;
+    // (u, v) of the cell are corner + scale · (u, v) in the whole triangle; scale is negative for cells upside down.
+    Vec2 corner{0};
+    float scale = 1;
     uint32_t surface = 0;     // World's placed primitive
     uint32_t triangle = 0;    // index in its primitive
-    float mean_radiance = 0;  // mean luminance of the emission over the triangle, for choosing
+    float mean_radiance = 0;  // mean luminance of the emission over the cell, for choosing
     bool two_sided = false;
+};
+
+// The cells of one triangle: cells_per_edge² entries of Lights::triangles. Row i of cells along the first edge comes
+// before row i + 1; in a row upright cells and those upside down alternate.
+struct EmissiveCells {
+    uint32_t first = 0;
+    uint32_t cells_per_edge = 1;
+
+    // Of the cell at (u, v) of the triangle.
+    uint32_t index_at(float u, float v) const;
 };
 
 // A punctual light placed in the world.
@@ -42,12 +56,14 @@ struct LightSample {
     bool is_delta = false;
     uint32_t surface = 0xffffffffu;  // set for emissive triangles
     uint32_t triangle = 0;
-    float u = 0, v = 0;
+    float u = 0, v = 0;     // in the whole triangle
+    uint32_t emissive = 0;  // index in Lights::triangles
 };
 
 struct Lights {
     std::vector<PlacedLight> punctual;
     std::vector<EmissiveTriangle> triangles;
+    std::vector<EmissiveCells> cells;  // by emissive surface and its triangles, as Surface::first_emissive says
     std::optional<EnvironmentLight> environment;
 
     // Alias table over [punctual…, triangles…], by estimated power, and the probability of choosing the environment
@@ -65,7 +81,7 @@ void finish_lights(Lights& lights, const Bounds3& scene_bounds);
 // Chooses a light with u_pick and a point or direction on it with u, seen from a point.
 LightSample sample_light(const Lights& lights, const Vec3& from, float u_pick, const Vec2& u) noexcept;
 
-// The pdf with which sample_light, from the same point, finds the emissive triangle (index in Lights::triangles) along
+// The pdf with which sample_light, from the same point, finds the emissive cell (index in Lights::triangles) along
 // the unit direction wi at that distance; 0 where it would not (back of a one-sided emitter).
 float triangle_light_pdf(const Lights& lights, uint32_t emissive_index, const Vec3& from, const Vec3& wi,
                          float distance) noexcept;

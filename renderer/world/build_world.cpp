@@ -76,8 +76,7 @@ void gather_lights(World& world, const std::optional<Environment>& fallback) {
     }
     for (uint32_t i = 0; i < world.surfaces.size(); ++i) {
         Surface& surface = world.surfaces[i];
-        if (world.materials[surface.material].emits())
-            append_emissive_triangles(world, i, surface, world.lights.triangles);
+        if (world.materials[surface.material].emits()) append_emissive_triangles(world, i, surface, world.lights);
     }
     const std::optional<Environment>& environment = world.scene->environment ? world.scene->environment : fallback;
     if (environment) world.lights.environment.emplace(*environment);

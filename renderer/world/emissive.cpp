@@ -5,15 +5,18 @@ namespace candela {
 
 namespace {
 
-// The mean and the largest luminance of a texture over a triangle in uv, on a grid of barycentric points that is as
-// fine as the texels up to 16 × 16.
+constexpr int most_cells_per_edge = 32;
+constexpr size_t most_cells = 1u << 20;
+
+// Emission over a triangle in uv, on a grid of barycentric points that is as fine as the texels up to 16 × 16.
 struct TextureMean {
-    float mean = 1.0f;
-    float largest = 1.0f;
+    float mean = 0.0f;
+    float largest = 0.0f;
+    float smallest = infinity;
 };
 
-TextureMean mean_over_triangle(const TextureView& texture, const TextureRef& ref, const Vec3& factor,
-                               const Vec2 uv[3]) {
+// Longest edge of the triangle in texels; 1 where it is not finite.
+int texels_along(const TextureView& texture, const TextureRef& ref, const Vec2 uv[3]) {
     Vec2 texel[3];
     for (int i = 0; i < 3; ++i) {
         texel[i] = ref.uv_transform * Vec3(uv[i], 1.0f) *
@@ -21,10 +24,14 @@ TextureMean mean_over_triangle(const TextureView& texture, const TextureRef& ref
     }
     const float longest = std::max(
         {glm::length(texel[1] - texel[0]), glm::length(texel[2] - texel[0]), glm::length(texel[2] - texel[1])});
-    const int n = std::isfinite(longest) ? std::clamp(static_cast<int>(std::ceil(longest)), 1, 16) : 1;
+    return std::isfinite(longest) ? static_cast<int>(std::ceil(std::clamp(longest, 1.0f, 1e6f))) : 1;
+}
 
+TextureMean mean_over_triangle(const TextureView& texture, const TextureRef& ref, const Vec3& factor,
+                               const Vec2 uv[3]) {
+    const int n = std::min(texels_along(texture, ref, uv), 16);
+    TextureMean out;
     double sum = 0;
-    float largest = 0;
     int count = 0;
     for (int i = 0; i < n; ++i) {
         for (int j = 0; i + j < n; ++j) {
@@ -33,17 +40,29 @@ TextureMean mean_over_triangle(const TextureView& texture, const TextureRef& ref
             const Vec2 at = (1.0f - u - v) * uv[0] + u * uv[1] + v * uv[2];
             const float value = luminance(factor * Vec3(lookup_srgb(texture, ref.uv_transform * Vec3(at, 1.0f))));
             sum += static_cast<double>(value);
-            largest = std::max(largest, value);
+            out.largest = std::max(out.largest, value);
+            out.smallest = std::min(out.smallest, value);
             ++count;
         }
     }
-    return {static_cast<float>(sum / count), largest};
+    out.mean = static_cast<float>(sum / count);
+    return out;
+}
+
+// One cell of a triangle: all of it for corner 0 and scale 1.
+EmissiveTriangle cut_cell(const EmissiveTriangle& whole, const Vec2& corner, float scale) {
+    EmissiveTriangle cell = whole;
+    cell.p0 = whole.p0 + corner.x * whole.edge1 + corner.y * whole.edge2;
+    cell.edge1 = scale * whole.edge1;
+    cell.edge2 = scale * whole.edge2;
+    cell.corner = corner;
+    cell.scale = scale;
+    return cell;
 }
 
 }  // namespace
 
-void append_emissive_triangles(const World& world, uint32_t surface_index, Surface& surface,
-                               std::vector<EmissiveTriangle>& out) {
+void append_emissive_triangles(const World& world, uint32_t surface_index, Surface& surface, Lights& out) {
     const Primitive& primitive = *surface.primitive;
     const Material& material = world.materials[surface.material];
     const SurfaceTransform& transform = world.transforms[surface.transform];
@@ -53,8 +72,9 @@ void append_emissive_triangles(const World& world, uint32_t surface_index, Surfa
         uv = &primitive.uv[material.emissive.uv_set & 1u];
     }
 
-    surface.first_emissive = static_cast<uint32_t>(out.size());
-    out.reserve(out.size() + primitive.triangles.size());
+    surface.first_emissive = static_cast<uint32_t>(out.cells.size());
+    out.cells.reserve(out.cells.size() + primitive.triangles.size());
+    out.triangles.reserve(out.triangles.size() + primitive.triangles.size());
     for (uint32_t t = 0; t < primitive.triangles.size(); ++t) {
         Vec3u index = primitive.triangles[t];
         if (transform.flips) std::swap(index.y, index.z);
@@ -63,24 +83,57 @@ void append_emissive_triangles(const World& world, uint32_t surface_index, Surfa
             p[i] = surface.positions[index[i]];
             if (!surface.positions_in_world) p[i] = transform.world_from_object * Vec4(p[i], 1.0f);
         }
-        EmissiveTriangle light;
-        light.p0 = p[0];
-        light.edge1 = p[1] - p[0];
-        light.edge2 = p[2] - p[0];
-        light.surface = surface_index;
-        light.triangle = t;
-        light.two_sided = material.double_sided;
+        EmissiveTriangle whole;
+        whole.p0 = p[0];
+        whole.edge1 = p[1] - p[0];
+        whole.edge2 = p[2] - p[0];
+        whole.surface = surface_index;
+        whole.triangle = t;
+        whole.two_sided = material.double_sided;
+        whole.mean_radiance = luminance(factor);
+        EmissiveCells cells{static_cast<uint32_t>(out.triangles.size()), 1};
+        if (uv == nullptr) {
+            out.triangles.push_back(whole);
+            out.cells.push_back(cells);
+            continue;
+        }
 
         // A triangle must stay reachable as long as a texel of it may shine: the grid can miss some, so its choice
         // never falls below a hundredth of the factor's unless the grid saw every texel black.
-        light.mean_radiance = luminance(factor);
-        if (uv != nullptr) {
-            const Vec2 corners[3] = {(*uv)[index.x], (*uv)[index.y], (*uv)[index.z]};
-            const TextureMean texture =
-                mean_over_triangle(world.textures[material.emissive.texture.value], material.emissive, factor, corners);
-            light.mean_radiance = std::max(texture.mean, 0.01f * std::max(texture.largest, 0.01f * luminance(factor)));
+        const TextureView& texture = world.textures[material.emissive.texture.value];
+        const Vec2 corners[3] = {(*uv)[index.x], (*uv)[index.y], (*uv)[index.z]};
+        const TextureMean mean = mean_over_triangle(texture, material.emissive, factor, corners);
+        whole.mean_radiance = std::max(mean.mean, 0.01f * std::max(mean.largest, 0.01f * luminance(factor)));
+
+        // Cut it where the emission varies, and give each cell its own mean, but a share that keeps it reachable.
+        const bool uneven = mean.largest > 2.0f * mean.smallest;
+        const int n = uneven ? std::min(2 * texels_along(texture, material.emissive, corners), most_cells_per_edge) : 1;
+        if (n == 1 || out.triangles.size() + static_cast<size_t>(n * n) > most_cells) {
+            out.triangles.push_back(whole);
+            out.cells.push_back(cells);
+            continue;
         }
-        out.push_back(light);
+        cells.cells_per_edge = static_cast<uint32_t>(n);
+        out.cells.push_back(cells);
+        const float width = 1.0f / static_cast<float>(n);
+        const auto add_cell = [&](const Vec2& corner, float scale) {
+            EmissiveTriangle cell = cut_cell(whole, corner, scale);
+            const auto uv_at = [&](float u, float v) {
+                return (1.0f - u - v) * corners[0] + u * corners[1] + v * corners[2];
+            };
+            const Vec2 cell_uv[3] = {uv_at(corner.x, corner.y), uv_at(corner.x + scale, corner.y),
+                                     uv_at(corner.x, corner.y + scale)};
+            const float shines = mean_over_triangle(texture, material.emissive, factor, cell_uv).mean;
+            cell.mean_radiance = std::max(shines, 0.05f * whole.mean_radiance);
+            out.triangles.push_back(cell);
+        };
+        for (int i = 0; i < n; ++i) {
+            for (int j = 0; i + j < n; ++j) {
+                const Vec2 corner = width * Vec2(i, j);
+                add_cell(corner, width);
+                if (i + j < n - 1) add_cell(corner + width, -width);
+            }
+        }
     }
 }
 

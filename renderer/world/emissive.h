@@ -6,10 +6,10 @@
 
 namespace candela {
 
-// Appends one EmissiveTriangle for every triangle of the surface, in order, and sets surface.first_emissive.
-// edge1 × edge2 points to the front; where the transform flips, edge1 leads to the third vertex and edge2 to the
-// second.
-void append_emissive_triangles(const World& world, uint32_t surface_index, Surface& surface,
-                               std::vector<EmissiveTriangle>& out);
+// Appends EmissiveCells for every triangle of the surface, in order, and their EmissiveTriangles; sets
+// surface.first_emissive. Triangles whose texture shines unevenly are cut into cells of half a texel, at most 32² for
+// a triangle and as many as keep the list below about a million. edge1 × edge2 points to the front; where the transform
+// flips, edge1 leads to the third vertex and edge2 to the second.
+void append_emissive_triangles(const World& world, uint32_t surface_index, Surface& surface, Lights& out);
 
 }  // namespace candela

@@ -22,7 +22,7 @@ struct Surface {
     const Vec3* positions = nullptr;          // in world space if positions_in_world, else in object space
     uint32_t material = 0;                    // index in World::materials
     uint32_t transform = 0;                   // index in World::transforms
-    uint32_t first_emissive = invalid_index;  // Lights::triangles index of its triangle 0; invalid: does not emit
+    uint32_t first_emissive = invalid_index;  // Lights::cells index of its triangle 0; invalid: does not emit
     uint32_t instance = 0;                    // Scene::instances index
     uint32_t medium = invalid_index;          // World::media index of what the surface encloses; invalid: nothing
     bool positions_in_world = false;
