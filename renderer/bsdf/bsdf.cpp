@@ -5,10 +5,9 @@
 #include "renderer/bsdf/albedo_table.h"
 #include "renderer/bsdf/dielectric.h"
 #include "renderer/bsdf/fresnel.h"
-#include "renderer/bsdf/metallic_roughness.h"
 #include "renderer/bsdf/microfacet.h"
 #include "renderer/bsdf/sheen.h"
-#include "renderer/math/frame.h"
+#include "renderer/bsdf/stack.h"
 #include "renderer/sampling/warp.h"
 
 namespace candela {
@@ -21,34 +20,25 @@ constexpr float coat_f0 = 0.04f;
 // A chosen lobe keeps at least this share of the samples: the exact share matters little, a starved lobe is noise.
 constexpr float least_probability = 0.05f;
 
-enum Lobe : uint8_t { coat_lobe, sheen_lobe, specular_lobe, diffuse_lobe, transmitted_lobe, glass_lobe, lobe_count };
+bool reflects(const Vec3& wi) {
+    return wi.z > 0.0f;
+}
 
-// All that evaluations for one wo share.
-struct Stack {
-    OpaqueLobes opaque;
-    OrthonormalFrame coat_frame;
-    Vec3 coat_wo{0};
-    float coat_energy = 1;  // single-scattering albedo of a mirror of the coat's roughness
-    float coat = 0;         // albedo of the coat
-    float below_coat = 1;   // share of light that passes the coat
-    float below_sheen = 1;  // share of light that reaches the base
-    float glass = 0;        // share of the base that is glass
-    float probability[lobe_count] = {};
-};
-
-float mean_reflectance_of_coat(const Stack& stack, const Bsdf& bsdf) {
+float albedo_of_coat(const BsdfStack& stack, const Bsdf& bsdf) {
     const SpecularAlbedo e = specular_albedo(stack.coat_wo.z, bsdf.coat_alpha);
     return (coat_f0 * e.scale + e.bias) * (1.0f + coat_f0 * (1.0f / e.total() - 1.0f));
 }
 
-Stack make_stack(const Bsdf& bsdf, const Vec3& wo) {
-    Stack out;
+}  // namespace
+
+BsdfStack make_stack(const Bsdf& bsdf, const Vec3& wo) noexcept {
+    BsdfStack out;
     if (bsdf.coat > 0.0f) {
         out.coat_frame = OrthonormalFrame::from_normal(bsdf.coat_normal);
         out.coat_wo = out.coat_frame.local_from_world(wo);
         if (out.coat_wo.z > 0.0f) {
             out.coat_energy = specular_albedo(out.coat_wo.z, bsdf.coat_alpha).total();
-            out.coat = bsdf.coat * mean_reflectance_of_coat(out, bsdf);
+            out.coat = bsdf.coat * albedo_of_coat(out, bsdf);
             out.below_coat = 1.0f - out.coat;
         }
     }
@@ -70,25 +60,22 @@ Stack make_stack(const Bsdf& bsdf, const Vec3& wo) {
                         std::max(max_component(dielectric_reflectance(bsdf, wo.z)), max_component(bsdf.base_color));
     }
     float total = 0;
-    for (int k = 0; k < lobe_count; ++k)
+    for (int k = 0; k < bsdf_lobe_count; ++k)
         total += p[k];
     if (!(total > 0.0f)) return out;
     float raised = 0;
-    for (int k = 0; k < lobe_count; ++k) {
+    for (int k = 0; k < bsdf_lobe_count; ++k) {
         if (p[k] > 0.0f) p[k] = std::max(p[k] / total, least_probability);
         raised += p[k];
     }
-    for (int k = 0; k < lobe_count; ++k)
+    for (int k = 0; k < bsdf_lobe_count; ++k)
         p[k] /= raised;
     return out;
 }
 
-bool reflects(const Vec3& wi) {
-    return wi.z > 0.0f;
-}
-
-BsdfEval eval_stack(const Bsdf& bsdf, const Stack& stack, const Vec3& wo, const Vec3& wi) {
+BsdfEval eval(const Bsdf& bsdf, const BsdfStack& stack, const Vec3& wo, const Vec3& wi) noexcept {
     BsdfEval out;
+    if (!reflects(wi) && !bsdf.transmits()) return out;
     const float* p = stack.probability;
     if (reflects(wi)) {
         if (p[diffuse_lobe] > 0.0f) {
@@ -127,8 +114,6 @@ BsdfEval eval_stack(const Bsdf& bsdf, const Stack& stack, const Vec3& wo, const 
     return out;
 }
 
-}  // namespace
-
 float ggx_alpha(float perceptual_roughness) {
     const float alpha = std::min(sqr(perceptual_roughness), 1.0f);
     return alpha < min_ggx_alpha ? 0.0f : alpha;
@@ -157,14 +142,16 @@ Bsdf make_bsdf(const Vec3& base_color, float metallic, float perceptual_roughnes
 }
 
 BsdfSample sample(const Bsdf& bsdf, const Vec3& wo, float u_lobe, const Vec2& u) noexcept {
+    return wo.z > 0.0f ? sample(bsdf, make_stack(bsdf, wo), wo, u_lobe, u) : BsdfSample{};
+}
+
+BsdfSample sample(const Bsdf& bsdf, const BsdfStack& stack, const Vec3& wo, float u_lobe, const Vec2& u) noexcept {
     BsdfSample out;
-    if (!(wo.z > 0.0f)) return out;
-    const Stack stack = make_stack(bsdf, wo);
 
     // Choose the lobe; what is left of u_lobe is uniform again.
     int lobe = -1;
     float probability = 0, u_rest = u_lobe;
-    for (int k = 0; k < lobe_count; ++k) {
+    for (int k = 0; k < bsdf_lobe_count; ++k) {
         if (!(stack.probability[k] > 0.0f)) continue;
         lobe = k;
         probability = stack.probability[k];
@@ -176,7 +163,7 @@ BsdfSample sample(const Bsdf& bsdf, const Vec3& wo, float u_lobe, const Vec2& u)
 
     // Draw the direction; smooth lobes know their weight at once.
     Vec3 delta_value(0);
-    switch (static_cast<Lobe>(lobe)) {
+    switch (static_cast<BsdfLobe>(lobe)) {
         case coat_lobe: {
             Vec3 wi(-stack.coat_wo.x, -stack.coat_wo.y, stack.coat_wo.z);
             if (bsdf.coat_alpha > 0.0f) {
@@ -208,7 +195,7 @@ BsdfSample sample(const Bsdf& bsdf, const Vec3& wo, float u_lobe, const Vec2& u)
             out.wi.z = -out.wi.z;
             break;
         case glass_lobe:
-        case lobe_count: {
+        case bsdf_lobe_count: {
             const BsdfSample glass = sample_dielectric(bsdf, wo, u_rest, u);
             if (!(glass.pdf > 0.0f)) return {};
             out = glass;
@@ -223,7 +210,7 @@ BsdfSample sample(const Bsdf& bsdf, const Vec3& wo, float u_lobe, const Vec2& u)
     }
 
     // Any lobe could have drawn this direction.
-    const BsdfEval all = eval_stack(bsdf, stack, wo, out.wi);
+    const BsdfEval all = eval(bsdf, stack, wo, out.wi);
     if (!(all.pdf > 0.0f) || !std::isfinite(all.pdf)) return {};
     out.pdf = all.pdf;
     out.weight = all.value / all.pdf;
@@ -231,14 +218,12 @@ BsdfSample sample(const Bsdf& bsdf, const Vec3& wo, float u_lobe, const Vec2& u)
 }
 
 BsdfEval eval(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi) noexcept {
-    if (!(wo.z > 0.0f)) return {};
-    if (!reflects(wi) && !bsdf.transmits()) return {};
-    return eval_stack(bsdf, make_stack(bsdf, wo), wo, wi);
+    return wo.z > 0.0f ? eval(bsdf, make_stack(bsdf, wo), wo, wi) : BsdfEval{};
 }
 
 Vec3 albedo(const Bsdf& bsdf, const Vec3& wo) noexcept {
     if (!(wo.z > 0.0f)) return Vec3(0);
-    const Stack stack = make_stack(bsdf, wo);
+    const BsdfStack stack = make_stack(bsdf, wo);
     Vec3 base = stack.opaque.specular + stack.opaque.diffuse + stack.opaque.transmitted;
     if (stack.glass > 0.0f) {
         base += stack.glass * (dielectric_reflectance(bsdf, wo.z) + dielectric_transmittance(bsdf, wo.z));
@@ -250,7 +235,7 @@ Vec3 albedo(const Bsdf& bsdf, const Vec3& wo) noexcept {
 
 Vec3 straight_transmittance(const Bsdf& bsdf, const Vec3& wo) noexcept {
     if (!(bsdf.transmission > 0.0f) || !bsdf.thin_walled || bsdf.alpha.x > 0.0f || !(wo.z > 0.0f)) return Vec3(0);
-    const Stack stack = make_stack(bsdf, wo);
+    const BsdfStack stack = make_stack(bsdf, wo);
     return stack.below_sheen * stack.glass * dielectric_transmittance(bsdf, wo.z);
 }
 

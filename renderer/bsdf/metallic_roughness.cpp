@@ -21,6 +21,12 @@ float mean_alpha(const Bsdf& bsdf) {
     return bsdf.alpha.x == bsdf.alpha.y ? bsdf.alpha.x : std::sqrt(bsdf.alpha.x * bsdf.alpha.y);
 }
 
+// Nothing but diffuse, as KHR_materials_specular with factor 0 has it.
+bool is_lambert(const Bsdf& bsdf) {
+    return bsdf.dielectric_f90 == 0.0f && bsdf.metallic == 0.0f && bsdf.transmission == 0.0f &&
+           is_black(bsdf.dielectric_f0);
+}
+
 Vec3 dielectric_albedo(const Bsdf& bsdf, float cos_theta) {
     return compensated_albedo(specular_albedo(cos_theta, mean_alpha(bsdf)), bsdf.dielectric_f0,
                               Vec3(bsdf.dielectric_f90));
@@ -39,6 +45,11 @@ Vec3 mean_dielectric_albedo(const Bsdf& bsdf) {
 
 OpaqueLobes make_opaque_lobes(const Bsdf& bsdf, const Vec3& wo) noexcept {
     OpaqueLobes out;
+    if (is_lambert(bsdf)) {
+        out.diffuse = (1.0f - bsdf.diffuse_transmission) * bsdf.base_color;
+        out.transmitted = bsdf.diffuse_transmission * bsdf.diffuse_transmission_color;
+        return out;
+    }
     const SpecularAlbedo e = specular_albedo(wo, bsdf.alpha);
     out.energy = e.total();
     out.metal = bsdf.metallic;
@@ -74,6 +85,7 @@ Vec3 sample_specular(const Bsdf& bsdf, const Vec3& wo, const Vec2& u) noexcept {
 
 Vec3 eval_diffuse(const Bsdf& bsdf, const OpaqueLobes& lobes, const Vec3& wi) noexcept {
     if (wi.z <= 0.0f) return lobes.transmitted * (inv_pi * -wi.z);
+    if (is_lambert(bsdf)) return lobes.diffuse * (inv_pi * wi.z);
     const Vec3 share =
         (1.0f - dielectric_albedo(bsdf, wi.z)) / glm::max(1.0f - mean_dielectric_albedo(bsdf), Vec3(1e-4f));
     return lobes.diffuse * share * (inv_pi * wi.z);

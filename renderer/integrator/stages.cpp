@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/integrator/stages.h"
 
+#include "renderer/bsdf/stack.h"
 #include "renderer/math/hash.h"
 #include "renderer/sampling/mis.h"
 #include "renderer/sampling/warp.h"
@@ -143,8 +144,8 @@ Ray shadow_ray(const World& world, const SurfacePoint& point, const LightSample&
 
 // Next-event estimation: one light, weighted against the chance that a BSDF sample finds it.
 ShadowRequest plan_connection(const World& world, const IntegratorSettings& settings, const SurfacePoint& point,
-                              const Boundary& boundary, const Bsdf& bsdf, const Vec3& wo, float u_pick, const Vec2& u,
-                              const PathState& path) {
+                              const Boundary& boundary, const Bsdf& bsdf, const BsdfStack& stack, const Vec3& wo,
+                              float u_pick, const Vec2& u, const PathState& path) {
     ShadowRequest request;
     const LightSample light = sample_light(world.lights, point.position, u_pick, u);
     if (!(light.pdf > 0.0f)) return request;
@@ -154,7 +155,7 @@ ShadowRequest plan_connection(const World& world, const IntegratorSettings& sett
     const bool transmitted = wi.z < 0.0f;
     if ((glm::dot(light.wi, point.geometric_normal) <= 0.0f) != transmitted) return request;
 
-    const BsdfEval scattered = eval(bsdf, wo, wi);
+    const BsdfEval scattered = eval(bsdf, stack, wo, wi);
     if (is_black(scattered.value)) return request;
     Vec3 contribution = scattered.value * light.weight;
     if (light.surface != invalid_index) {
@@ -241,12 +242,18 @@ ShadowRequest shade(const World& world, const IntegratorSettings& settings, cons
 
     // Plan the connection to a light.
     ShadowRequest request;
+    if (!(wo.z > 0.0f)) {
+        path.alive = false;
+        return request;
+    }
+    const BsdfStack stack = make_stack(material.bsdf, wo);
     if (may_scatter && !world.lights.empty()) {
-        request = plan_connection(world, settings, point, boundary, material.bsdf, wo, u_choices.x, u_light, path);
+        request =
+            plan_connection(world, settings, point, boundary, material.bsdf, stack, wo, u_choices.x, u_light, path);
     }
 
     // Draw the next direction. Going straight through thin glass is no scattering: sampled lights shine through it too.
-    const BsdfSample scattered = sample(material.bsdf, wo, u_choices.y, u_bsdf);
+    const BsdfSample scattered = sample(material.bsdf, stack, wo, u_choices.y, u_bsdf);
     const Vec3 wi = point.shading.world_from_local(scattered.wi);
     const bool transmitted = scattered.wi.z < 0.0f;
     path.alive = scattered.pdf > 0.0f && !is_black(scattered.weight) &&
