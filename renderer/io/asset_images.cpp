@@ -2,6 +2,7 @@
 #include "renderer/io/asset_images.h"
 
 #include "renderer/io/images.h"
+#include "renderer/io/materials.h"
 
 namespace candela {
 namespace {
@@ -10,9 +11,8 @@ namespace {
 std::vector<uint32_t> images_in_use(const Scene& scene) {
     std::vector<uint8_t> used(scene.images.size(), 0);
     for (const Material& material : scene.materials) {
-        for (const TextureRef* ref :
-             {&material.base_color, &material.metallic_roughness, &material.normal, &material.emissive}) {
-            if (ref->valid()) used[scene.textures[ref->texture.value].image.value] = 1;
+        for (const TextureSlot& slot : texture_slots(material)) {
+            if (slot.ref != &material.occlusion) used[scene.textures[slot.ref->texture.value].image.value] = 1;
         }
     }
     std::vector<uint32_t> list;
@@ -89,8 +89,13 @@ void AssetImages::decode(Scene& scene) {
         if (image.pixels.empty()) image.pixels = ImageRgba8(1, 1, Rgba8(255));
     }
     for (Material& material : scene.materials) {
-        if (material.normal.valid() && lost[scene.textures[material.normal.texture.value].image.value] != 0) {
-            material.normal = TextureRef{};
+        for (TextureRef* normal : {&material.normal, &material.clearcoat.normal}) {
+            if (normal->valid() && lost[scene.textures[normal->texture.value].image.value] != 0) *normal = TextureRef{};
+        }
+        // White would turn and strengthen every highlight.
+        if (TextureRef& direction = material.anisotropy.texture;
+            direction.valid() && lost[scene.textures[direction.texture.value].image.value] != 0) {
+            direction = TextureRef{};
         }
     }
 }

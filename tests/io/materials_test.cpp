@@ -164,6 +164,44 @@ TEST_F(Materials, LayersWithTheirTextures) {
     EXPECT_EQ(texture_slots(m).size(), 13u);
 }
 
+TEST_F(Materials, EveryTextureThatAMaterialReadsIsDecoded) {
+    // One material for each textureInfo, and an image each that no other reads.
+    const std::pair<const char*, const char*> places[] = {
+        {"KHR_materials_specular", "specularTexture"},
+        {"KHR_materials_specular", "specularColorTexture"},
+        {"KHR_materials_clearcoat", "clearcoatTexture"},
+        {"KHR_materials_clearcoat", "clearcoatRoughnessTexture"},
+        {"KHR_materials_clearcoat", "clearcoatNormalTexture"},
+        {"KHR_materials_sheen", "sheenColorTexture"},
+        {"KHR_materials_sheen", "sheenRoughnessTexture"},
+        {"KHR_materials_iridescence", "iridescenceTexture"},
+        {"KHR_materials_iridescence", "iridescenceThicknessTexture"},
+        {"KHR_materials_anisotropy", "anisotropyTexture"},
+        {"KHR_materials_transmission", "transmissionTexture"},
+        {"KHR_materials_diffuse_transmission", "diffuseTransmissionTexture"},
+        {"KHR_materials_diffuse_transmission", "diffuseTransmissionColorTexture"},
+        {"KHR_materials_pbrSpecularGlossiness", "diffuseTexture"},
+        {"KHR_materials_pbrSpecularGlossiness", "specularGlossinessTexture"}};
+    const std::string png =
+        "data:image/"
+        "png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAIAAAD91JpzAAAAEElEQVR4nGNocFAAIgYIBQAaDgOBnA45xwAAAABJRU5ErkJggg="
+        "=";
+    Document document = with_material(Json::object());
+    document.json["materials"] = Json::array();
+    document.json["images"] = Json::array();
+    document.json["textures"] = Json::array();
+    for (const auto& [extension, name] : places) {
+        const auto index = document.json["images"].size();
+        document.json["images"].push_back({{"uri", png}});
+        document.json["textures"].push_back({{"source", index}});
+        document.json["materials"].push_back({{"extensions", {{extension, {{name, {{"index", index}}}}}}}});
+    }
+    options_.decode_images = true;
+    const Scene scene = load(document);
+    for (size_t i = 0; i < std::size(places); ++i)
+        EXPECT_EQ(scene.images[i].pixels.width(), 2) << places[i].second << "\n" << all_warnings();
+}
+
 TEST_F(Materials, SpecularGlossinessReplacesMetallicRoughness) {
     const Material m = material_of({{"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 0, 1}}}},
                                     {"extensions",
