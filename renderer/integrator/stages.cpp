@@ -212,6 +212,8 @@ ShadowRequest shade(const World& world, const IntegratorSettings& settings, cons
     const Boundary boundary =
         meet_boundary(world, world.surfaces[point.surface].medium, point.front_face, u_rare.y, path);
     if (boundary.is_hidden) {
+        // To the rays that look for sampled lights it is opaque: what lies beyond, only this path can find.
+        path.from_delta = true;
         path.media = boundary.far;
         pass_straight(point, path);
         path.alive = path.segments < most_segments;

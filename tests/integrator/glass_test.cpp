@@ -225,6 +225,29 @@ TEST(Glass, WhereBodiesOverlapTheSmallerOneIsThere) {
     }
 }
 
+TEST(Glass, HiddenBoundariesHideNoLight) {
+    // A plane and a lamp inside one body, and between them the face of another that the first hides.
+    const auto scene_with = [](bool bodies) {
+        Scene scene;
+        add_object(scene, make_quad(Vec3(-2, -2, -1), Vec3(4, 0, 0), Vec3(0, 4, 0)), add_lambert(scene, Vec3(1)));
+        add_object(scene, make_quad(Vec3(-1, 1, 1), Vec3(2, 0, 0), Vec3(0, -2, 0)), add_emitter(scene, Vec3(1)));
+        if (bodies) {
+            add_object(scene, make_box(Vec3(-5, -5, -3), Vec3(5, 5, 3)), add_glass(scene, 1));
+            add_object(scene, make_box(Vec3(-9, -9, -4), Vec3(9, 9, 0)), add_glass(scene, 1));
+        }
+        return build(std::move(scene));
+    };
+    const View view = look_at_point(Vec3(2.9f, 0.2f, 3.5f), Vec3(0.3f, 0.2f, -1), Vec3(0, 1, 0));
+    const BatchMeans bare = measure(*scene_with(false), view, {}, 32, 4096);
+    const auto world = scene_with(true);
+    for (const Technique& technique : all_techniques) {
+        const BatchMeans means = measure(*world, view, technique, 32, 4096);
+        EXPECT_NEAR(means.mean(), bare.mean(), 4 * std::hypot(means.standard_error(), bare.standard_error()))
+            << describe(technique);
+        EXPECT_LT(means.standard_error(), 0.02 * bare.mean());
+    }
+}
+
 TEST(Glass, FurnaceWithRoughGlassReadsOneToItsTable) {
     for (const float roughness : {0.3f, 0.6f}) {
         Scene scene;
