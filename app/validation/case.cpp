@@ -74,6 +74,11 @@ double spot_ramp(double cosine, double inner, double outer) {
     return t * t;
 }
 
+// The case added last looks at a diffuse point.
+void show_at(std::vector<ValidationCase>& cases, const Vec3& point) {
+    cases.back().point = point;
+}
+
 std::string number(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%g", value);
@@ -87,6 +92,8 @@ void add_point_light(std::vector<ValidationCase>& cases) {
         // The plane is white: L = E/π.
         const auto look = on_plane(r);
         c.probe = [look](const Vec2& u) { return Probe{look(u).view, pi_d}; };
+        c.point = Vec3(static_cast<float>(r), 0, 0);
+        c.radiance_per_unit = 1 / pi_d;
         c.techniques = both_samplers;
         cases.push_back(c);
     }
@@ -115,6 +122,7 @@ void add_strip_light(std::vector<ValidationCase>& cases) {
         const Probe probe{strip_light_view(p), 1};
         c.probe = [probe](const Vec2&) { return probe; };
         c.techniques = every_technique;
+        c.point = Vec3(static_cast<float>(p), 0, 0);
         cases.push_back(c);
     }
 }
@@ -123,6 +131,7 @@ void add_energy(std::vector<ValidationCase>& cases) {
     const Vec3 eye(0.31f, 0.22f, 5), target(0.31f, 0.22f, 0);
     cases.push_back({"energy", "white Lambert ball in a furnace", "1", "furnace_sphere.glb", 1.0, 1.0f,
                      at_point(eye, target), every_technique});
+    show_at(cases, Vec3(0, 0, 1));
     cases.push_back({"energy", "white ball in glass in a furnace", "1", "furnace_glass.glb", 1.0, 1.0f,
                      at_point(eye, target), every_technique});
     cases.push_back({"energy", "ice, drink and glass in a furnace", "1", "furnace_drink.glb", 1.0, 1.0f,
@@ -136,6 +145,7 @@ void add_energy(std::vector<ValidationCase>& cases) {
                      {},
                      at_point(inside, wall),
                      every_technique});
+    show_at(cases, Vec3(0, 0, -1));
     cases.push_back({"energy",
                      "integrating sphere, albedo 0.9",
                      "Le / (1 - rho)",
@@ -144,8 +154,10 @@ void add_energy(std::vector<ValidationCase>& cases) {
                      {},
                      at_point(inside, wall),
                      every_technique});
+    show_at(cases, Vec3(0, 0, -1));
     cases.push_back({"energy", "plane of albedo 0.25 under a sky of 2", "rho L", "sky_plane.glb", 0.5, 2.0f,
                      on_plane(0), every_technique});
+    show_at(cases, Vec3(0));
 }
 
 void add_lights(std::vector<ValidationCase>& cases) {
@@ -158,6 +170,7 @@ void add_lights(std::vector<ValidationCase>& cases) {
                      {},
                      on_plane(0),
                      both_samplers});
+    show_at(cases, Vec3(0));
     for (const double angle : {0.2, 0.6, 0.9}) {
         const double cosine = std::cos(angle);
         const double exact = angle > 0.8 ? 0.0 : 10 * spot_ramp(cosine, 0.4, 0.8) * std::pow(cosine, 3) / pi_d;
@@ -169,6 +182,7 @@ void add_lights(std::vector<ValidationCase>& cases) {
                          {},
                          on_plane(std::tan(angle)),
                          both_samplers});
+        show_at(cases, Vec3(static_cast<float>(std::tan(angle)), 0, 0));
     }
     cases.push_back({"lights",
                      "disc light of 64 corners",
@@ -178,6 +192,7 @@ void add_lights(std::vector<ValidationCase>& cases) {
                      {},
                      on_plane(0),
                      every_technique});
+    show_at(cases, Vec3(0));
     // From the origin the ball's outline is its ring of corners on the cone of tangents.
     const double tangent = std::acos(0.5 / 2);
     cases.push_back({"lights",
@@ -188,6 +203,7 @@ void add_lights(std::vector<ValidationCase>& cases) {
                      {},
                      on_plane(0),
                      every_technique});
+    show_at(cases, Vec3(0));
     ValidationCase squares{"lights", "opposed unit squares", "form factor F", "facing_squares.glb", 0.19982490};
     squares.probe = [](const Vec2& u) {
         const Vec3 target(u.x - 0.5f, 0, u.y - 0.5f);

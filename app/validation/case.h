@@ -34,6 +34,9 @@ struct ValidationCase {
     // u uniform in [0,1)²; a constant for cases that look at one point.
     std::function<Probe(const Vec2& u)> probe = {};
     std::vector<ValidationTechnique> techniques = {};
+    // A point of a diffuse surface that shows the radiance exact · radiance_per_unit from wherever one looks.
+    std::optional<Vec3> point = {};
+    double radiance_per_unit = 1;
 };
 
 // Every closed form, in the order of the report.

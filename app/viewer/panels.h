@@ -2,7 +2,7 @@
 // What is drawn over the picture. Each function fills the current ImGui frame.
 #pragma once
 
-#include "app/viewer/viewer_model.h"
+#include "app/viewer/validation_readings.h"
 
 namespace candela {
 
@@ -16,6 +16,8 @@ void draw_welcome(const ViewerModel& model);
 bool draw_notice(const ViewerModel& model);
 void draw_help();
 void draw_statistics(const ViewerModel& model);
+// The exact values of a validation scene, marked in the picture; nothing for other scenes.
+void draw_validation(const std::vector<ValidationReading>& readings);
 // Camera, light, rendering, display and scene, at the right.
 PanelEdits draw_side_panel(ViewerModel& model);
 

@@ -121,6 +121,16 @@ void scene_section(const ViewerModel& model, PanelEdits& edits) {
     }
 }
 
+void validation_section(PanelEdits& edits) {
+    if (!ImGui::CollapsingHeader("Validate")) return;
+    ImGui::TextWrapped(
+        "Scenes whose answers are known. Each shows the exact value beside what the picture has so far.");
+    std::vector<std::string> names;
+    for (const ValidationScene& scene : validation_scenes())
+        names.push_back(std::filesystem::path(scene.name).stem().string());
+    edits.validation_scene = choose_named("scene##validation", "choose", names);
+}
+
 }  // namespace
 
 PanelEdits draw_side_panel(ViewerModel& model) {
@@ -140,6 +150,7 @@ PanelEdits draw_side_panel(ViewerModel& model) {
     render_section(model, edits);
     display_section(model, edits);
     scene_section(model, edits);
+    validation_section(edits);
     ImGui::PopItemWidth();
     ImGui::End();
     return edits;

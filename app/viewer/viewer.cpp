@@ -53,13 +53,27 @@ float Viewer::aspect() const {
     return static_cast<float>(size_.pixels.x) / static_cast<float>(std::max(size_.pixels.y, 1u));
 }
 
-void Viewer::open(const std::string& path) {
-    // What the command line said of one file says nothing of another.
+// What the command line said of one file says nothing of another.
+RenderOptions Viewer::options_for(const std::string& path) const {
     RenderOptions options = model_.options;
     options.scene = path;
     options.camera.clear();
     options.eye = options.target = options.up = std::nullopt;
+    options.projection.reset();
     options.scene_index.reset();
+    return options;
+}
+
+void Viewer::open(const std::string& path) {
+    start_load(options_for(path), false);
+}
+
+void Viewer::open_validation_scene(size_t index) {
+    const ValidationScene& scene = validation_scenes()[index];
+    RenderOptions options = options_for((assets_folder() / "validation" / scene.name).string());
+    options.hdri.clear();
+    options.hdri_intensity = 1;
+    options.sky = Vec3(scene.sky.value_or(0.0f));
     start_load(options, false);
 }
 
@@ -203,6 +217,9 @@ void Viewer::draw() {
         if (model_.loading) draw_loading_bar(model_);
         if (!model_.has_scene() && !model_.loading) draw_welcome(model_);
         if (model_.show_statistics) draw_statistics(model_);
+        if (model_.has_scene()) {
+            draw_validation(read_validation(model_.job.scene_path, *model_.job.world, model_.job.request.view, frame_));
+        }
         if (model_.show_panels) edits = draw_side_panel(model_);
         if (model_.show_help) draw_help();
         if (!model_.notice.empty() && draw_notice(model_)) {
@@ -226,6 +243,7 @@ void Viewer::apply(const PanelEdits& edits) {
         options.scene_index = edits.scene;
         start_load(options, false);
     }
+    if (edits.validation_scene) open_validation_scene(*edits.validation_scene);
     if (edits.view || edits.settings || edits.environment || edits.tone || edits.toggle_pause) redraws_ = 2;
 }
 

@@ -38,10 +38,14 @@ class Viewer {
 
     // Opens a scene in the background; what is shown stays until then, and after a failure.
     void open(const std::string& path);
+    // The same for one of validation_scenes(), under the sky that it wants.
+    void open_validation_scene(size_t index);
     // Renders, at the path, what is shown: .png as displayed; throws CommandError.
     void save(const std::string& path) const;
 
     const ViewerModel& model() const { return model_; }
+    // What is shown; null before the first picture.
+    const Frame* frame() const { return frame_; }
     // Why the last scene could not be opened; empty: it could, or it is not known yet.
     const std::string& load_error() const { return load_error_; }
     ExitStatus load_status() const { return load_status_; }
@@ -49,6 +53,7 @@ class Viewer {
   private:
     enum class DragMode : uint8_t { none, orbit, pan, dolly, environment };
 
+    RenderOptions options_for(const std::string& path) const;
     void start_load(RenderOptions options, bool keep_view);
     void start_environment_change();
     void take_loaded();

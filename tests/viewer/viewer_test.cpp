@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The whole viewer off-screen: events in, pictures out.
 #include "app/viewer/viewer.h"
+#include "app/viewer/validation_readings.h"
 
 #include <chrono>
 #include <fstream>
@@ -367,6 +368,45 @@ TEST_F(ViewerTest, TheOffScreenPictureIsThatOfTheHeadlessRenderer) {
         for (int c = 0; c < 3; ++c)
             ASSERT_NEAR(shown.pixels()[i][c], expected.pixels()[i][c], 1) << i;
     }
+}
+
+TEST_F(ViewerTest, ValidationScenesShowTheExactValueBesideThePicture) {
+    start(options_for("assets/cornell_box.glb", 24));
+    const auto readings = [&] {
+        return read_validation(model().job.scene_path, *model().job.world, model().job.request.view, viewer_->frame());
+    };
+    EXPECT_TRUE(readings().empty()) << "the Cornell box has no exact answer";
+
+    // Inside of an integrating sphere every pixel shows the same exact value.
+    const std::vector<ValidationScene>& scenes = validation_scenes();
+    const auto open = [&](const char* name) {
+        for (size_t i = 0; i < scenes.size(); ++i) {
+            if (scenes[i].name == name) viewer_->open_validation_scene(i);
+        }
+        finish();
+    };
+    open("integrating_sphere.glb");
+    ASSERT_EQ(viewer_->load_error(), "");
+    ASSERT_EQ(readings().size(), 1u);
+    ASSERT_TRUE(readings()[0].visible && readings()[0].shown);
+    // 25 pixels of 24 samples that each scatter by about 40 %: 4 standard errors.
+    EXPECT_NEAR(*readings()[0].shown / readings()[0].of->exact, 1, 0.06);
+
+    // A furnace needs its sky, and the next scene must not keep it.
+    open("furnace_sphere.glb");
+    ASSERT_TRUE(readings().at(0).shown);
+    EXPECT_NEAR(*readings()[0].shown, 1, 0.06);
+    open("point_light_plane.glb");
+    ASSERT_EQ(readings().size(), 5u);
+    ASSERT_TRUE(readings()[0].shown) << "the foot of the light is in the middle of the picture";
+    EXPECT_NEAR(*readings()[0].shown / readings()[0].of->exact, 1, 0.05);
+
+    // Points that leave the picture say so.
+    const Vec2 middle = Vec2(extent) / 2.0f;
+    drag(MouseButton::middle, middle, middle + Vec2(0, 5000));
+    finish();
+    EXPECT_FALSE(readings()[0].visible);
+    EXPECT_FALSE(readings()[0].shown);
 }
 
 }  // namespace
