@@ -152,6 +152,12 @@ void finish_render_options(const RawRenderOptions& raw, RenderOptions& options) 
         options.aovs.push_back(name);
 }
 
+// What only the window and its pictures refuse.
+void check_viewer_options(const RenderOptions& options) {
+    if (!options.aovs.empty()) throw usage("--aov: only candela render writes more layers than the picture");
+    if (!options.stats_file.empty() && options.stats_file != "-") check_output(options.stats_file);
+}
+
 std::string joined(int argc, char** argv) {
     std::string out = "candela";
     for (int i = 1; i < argc; ++i)
@@ -223,6 +229,7 @@ ExitStatus dispatch(int argc, char** argv) {
     render.command = joined(argc, argv);
     finish_render_options(raw, render);
     if (*render_command) return run_render(render);
+    check_viewer_options(render);
     if (*screenshot_command) return run_screenshot(render, with_interface);
     const std::string extension = extension_of(render.scene);
     std::error_code error;

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "app/statistics_file.h"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "app/exit_status.h"
 #include "app/sha256.h"
+#include "renderer/image/atomic_file.h"
+#include "renderer/image/codec.h"
 
 namespace candela {
 
@@ -34,7 +38,7 @@ std::string statistics_json(const RunRecord& record) {
         record.options->threads != 0 ? record.options->threads : std::max(1u, std::thread::hardware_concurrency());
     out["triangles"] = request.world->triangle_count;
     out["instances"] = request.world->scene->instances.size();
-    out["lights"] = lights.punctual.size() + lights.triangles.size() + (lights.environment ? 1 : 0);
+    out["lights"] = lights.punctual.size() + lights.cells.size() + (lights.environment ? 1 : 0);
     out["seconds"] = {{"load", record.job->load_seconds},
                       {"build", record.job->build_seconds},
                       {"render", record.status.render_seconds},
@@ -57,6 +61,21 @@ std::string statistics_json(const RunRecord& record) {
     out["warnings"] = record.job->warnings;
     out["command"] = record.options->command;
     return out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+void write_statistics(const RunRecord& record) {
+    const std::string& path = record.options->stats_file;
+    if (path.empty()) return;
+    const std::string json = statistics_json(record);
+    if (path == "-") {
+        fmt::print("{}", json);
+        return;
+    }
+    try {
+        write_file_atomically(path, json);
+    } catch (const ImageError& error) {
+        throw CommandError(ExitStatus::unwritable_output, path + ": " + error.what());
+    }
 }
 
 }  // namespace candela

@@ -18,5 +18,7 @@ struct RunRecord {
 
 // Every key of the contract, one object, indented.
 std::string statistics_json(const RunRecord& record);
+// Where --stats asks for it; nothing without. Throws CommandError.
+void write_statistics(const RunRecord& record);
 
 }  // namespace candela

@@ -11,7 +11,6 @@
 #include "app/progress_bar.h"
 #include "app/render_job.h"
 #include "app/statistics_file.h"
-#include "renderer/image/atomic_file.h"
 #include "renderer/integrator/aov.h"
 
 namespace candela {
@@ -92,19 +91,6 @@ void write_picture(const RenderOptions& options, const RenderJob& job, const Fra
                  picture_header(options.command, job.request), layers);
 }
 
-void write_statistics(const RenderOptions& options, const RunRecord& record) {
-    const std::string json = statistics_json(record);
-    if (options.stats_file == "-") {
-        fmt::print("{}", json);
-        return;
-    }
-    try {
-        write_file_atomically(options.stats_file, json);
-    } catch (const ImageError& error) {
-        throw CommandError(ExitStatus::unwritable_output, options.stats_file + ": " + error.what());
-    }
-}
-
 // The nearest of the limits, as a fraction of the way there.
 double fraction_done(const RenderRequest& request, const SessionStatus& status) {
     double fraction = 0;
@@ -153,10 +139,7 @@ ExitStatus run_render(const RenderOptions& options) {
     const Clock::time_point write_start = Clock::now();
     write_picture(options, job, frame, session);
     const double write_seconds = std::chrono::duration<double>(Clock::now() - write_start).count();
-    if (!options.stats_file.empty()) {
-        write_statistics(options,
-                         {&options, &job, status, &frame, write_seconds, before_render + status.render_seconds});
-    }
+    write_statistics({&options, &job, status, &frame, write_seconds, before_render + status.render_seconds});
     if (frame.statistics.non_finite > 0) {
         fmt::print(stderr, "candela: warning: {} samples were not finite and do not count\n",
                    frame.statistics.non_finite);

@@ -11,6 +11,7 @@
 #include "app/interrupt.h"
 #include "app/picture_file.h"
 #include "app/progress_bar.h"
+#include "app/statistics_file.h"
 #include "app/viewer/viewer.h"
 
 namespace candela {
@@ -22,6 +23,11 @@ ExitStatus run_screenshot(const RenderOptions& requested, bool with_interface) {
         throw CommandError(ExitStatus::wrong_usage, options.output + ": a screenshot must end in .png");
     }
     check_output(options.output);
+    const auto start = std::chrono::steady_clock::now();
+    const auto seconds_since_start = [&] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+    double first_frame_seconds = 0;
     if (!options.spp && !options.seconds && !options.until_error_percent) options.spp = 256;
     const InterruptGuard guard;
     ProgressBar bar(options.quiet, options.verbose);
@@ -31,6 +37,7 @@ ExitStatus run_screenshot(const RenderOptions& requested, bool with_interface) {
         Viewer viewer(options, context, {with_interface, {}});
         while (!viewer.finished() && !InterruptGuard::interrupted()) {
             viewer.update();
+            if (viewer.frame() != nullptr && first_frame_seconds == 0) first_frame_seconds = seconds_since_start();
             const SessionStatus& status = viewer.model().status;
             if (viewer.model().has_scene()) {
                 bar.show("render", options.spp ? static_cast<double>(status.spp) / *options.spp : 0.0,
@@ -54,8 +61,13 @@ ExitStatus run_screenshot(const RenderOptions& requested, bool with_interface) {
             viewer.update();
             viewer.draw();
         }
+        const double before_write = seconds_since_start();
         write_png(options.output, read_back(context), false,
                   picture_header(options.command, viewer.model().job.request));
+        if (viewer.frame() != nullptr) {
+            write_statistics({&options, &viewer.model().job, viewer.model().status, viewer.frame(),
+                              seconds_since_start() - before_write, first_frame_seconds});
+        }
     } catch (const GlError& error) {
         throw CommandError(ExitStatus::unwritable_output, fmt::format("{}: {}", options.output, error.what()));
     } catch (const ImageError& error) {

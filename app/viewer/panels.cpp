@@ -186,9 +186,8 @@ void draw_statistics(const ViewerModel& model) {
     if (ImGui::BeginTable("figures", 2)) {
         row("picture", fmt::format("{} x {}", model.frame_extent.x, model.frame_extent.y));
         row("triangles", fmt::format("{} in {} instances", world.triangle_count, world.scene->instances.size()));
-        row("light sources",
-            fmt::format("{} punctual, {} triangles{}", world.lights.punctual.size(), world.lights.triangles.size(),
-                        world.lights.environment ? ", environment" : ""));
+        row("light sources", fmt::format("{} punctual, {} triangles{}", world.lights.punctual.size(),
+                                         world.lights.cells.size(), world.lights.environment ? ", environment" : ""));
         row("loaded, built in",
             fmt::format("{:.0f} ms, {:.0f} ms", 1e3 * model.job.load_seconds, 1e3 * model.job.build_seconds));
         row("camera rays", fmt::format("{:.2f} M", static_cast<double>(status.rays.camera) * 1e-6));

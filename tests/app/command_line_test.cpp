@@ -118,6 +118,11 @@ TEST_F(CommandLine, AScreenshotIsTheRenderedPictureAndItsPanelsLieOverIt) {
 
 TEST_F(CommandLine, AScreenshotFailsAsTheContractSays) {
     EXPECT_EQ(run("screenshot -o " + file("a.exr") + tiny).status, 2);
+    EXPECT_EQ(run("screenshot --aov albedo -o " + file("a.png") + tiny).status, 2);
+    EXPECT_EQ(run("screenshot --stats " + file("no/such.json") + " -o " + file("a.png") + tiny).status, 4);
+    const Outcome record = run("screenshot --stats - -o " + file("a.png") + tiny);
+    EXPECT_EQ(record.status, 0);
+    EXPECT_NE(record.text.find("\"image_sha256\""), std::string::npos) << record.text;
     EXPECT_EQ(run("screenshot missing.glb -o " + file("a.png") + tiny).status, 3);
     EXPECT_EQ(run("screenshot -o " + file("no/such/a.png") + tiny).status, 4);
     EXPECT_EQ(run("screenshot -o " + file("a.png") + " --resolution 30000x8 --spp 1").status, 4);
