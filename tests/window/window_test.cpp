@@ -85,7 +85,7 @@ class WindowTest : public testing::Test {
 
     // The first picture that satisfies the condition; fails the test after a time.
     template <typename Condition>
-    ImageRgba8 wait_for(const char* what, const Condition& condition, double timeout_s = 20) {
+    ImageRgba8 wait_for(const char* what, const Condition& condition, double timeout_s = 60) {
         const auto end = Clock::now() + std::chrono::duration<double>(timeout_s);
         ImageRgba8 now = picture();
         while (!condition(now)) {
