@@ -28,13 +28,13 @@ CommandError usage(const std::string& line) {
 std::optional<Environment> place_environment(const Environment* environment, const RenderOptions& options) {
     if (environment == nullptr) return std::nullopt;
     Environment out = *environment;
-    out.rotation_radians = glm::radians(options.hdri_rotation_degrees);
-    out.intensity = options.hdri_intensity;
+    out.rotation_radians += glm::radians(options.hdri_rotation_degrees);
+    out.intensity *= options.hdri_intensity;
     return out;
 }
 
 bool has_light(const Scene& scene) {
-    if (!scene.light_instances.empty() || scene.environment) return true;
+    if (!scene.light_instances.empty()) return true;
     for (const Instance& instance : scene.instances) {
         for (const Primitive& primitive : scene.meshes[instance.mesh.value].primitives) {
             if (primitive.material.valid() && scene.materials[primitive.material.value].emits()) return true;
@@ -46,6 +46,7 @@ bool has_light(const Scene& scene) {
 std::shared_ptr<const Environment> choose_environment(const RenderOptions& options, const Scene& scene,
                                                       std::vector<std::string>& warnings) {
     if (!options.hdri.empty() || options.sky) return read_environment(options);
+    if (scene.environment) return std::make_shared<const Environment>(*scene.environment);
     if (has_light(scene)) return nullptr;
     warnings.push_back(
         "the scene has no light of its own, so a neutral sky of radiance 1 lights it; --sky or --hdri choose another");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/io/asset_images.h"
 
-#include "renderer/io/images.h"
 #include "renderer/io/materials.h"
 
 namespace candela {
@@ -31,12 +30,12 @@ void AssetImages::list(Scene& scene) const {
     }
 }
 
-std::span<const std::byte> AssetImages::encoded(size_t index) {
+std::span<const std::byte> AssetImages::encoded(size_t index, const char* consequence) {
     const ImageLayout& image = layout_.images[index];
     const std::string where = pointer_to("/images", index);
     if (image.view) return buffers_.view(*image.view);
     if (!image.uri) {
-        context_.warn(where, "has neither uri nor bufferView; white is used in its place");
+        context_.warn(where, std::string("has neither uri nor bufferView") + consequence);
         return {};
     }
     std::vector<std::byte>& bytes = owned_.emplace_back();
@@ -50,26 +49,47 @@ std::span<const std::byte> AssetImages::encoded(size_t index) {
             bytes = read_file(file);
         }
     } catch (const FileError& error) {
-        context_.warn(where + "/uri", std::string(error.what()) + "; white is used in its place");
+        context_.warn(where + "/uri", std::string(error.what()) + consequence);
     }
     return bytes;
 }
 
-void AssetImages::decode(Scene& scene) {
-    const std::vector<uint32_t> in_use = images_in_use(scene);
-    owned_.reserve(in_use.size());
-    std::vector<std::span<const std::byte>> sources;
-    for (const uint32_t image : in_use) {
-        context_.check_cancel();
-        sources.push_back(encoded(image));
-    }
-
+std::vector<DecodedImage> AssetImages::decode_all(std::span<const std::span<const std::byte>> sources) {
     ImageDecodeOptions options;
     options.max_total_bytes = context_.bytes_left();
     options.progress = [this](float fraction) { context_.progress(0.4f + 0.6f * fraction, "images"); };
     options.cancel = context_.options().cancel;
     std::vector<DecodedImage> decoded = decode_images(sources, options);
     context_.check_cancel();
+    return decoded;
+}
+
+std::vector<ImageRgba8> AssetImages::decode_apart(const std::vector<uint32_t>& indices) {
+    std::vector<std::span<const std::byte>> sources;
+    for (const uint32_t index : indices)
+        sources.push_back(encoded(index, ""));
+    std::vector<DecodedImage> decoded = decode_all(sources);
+    std::vector<ImageRgba8> out;
+    for (size_t i = 0; i < indices.size(); ++i) {
+        if (!sources[i].empty() && !decoded[i].error.empty()) {
+            context_.warn(pointer_to("/images", indices[i]), decoded[i].error);
+        }
+        context_.charge(decoded[i].pixels.size(), sizeof(Rgba8), pointer_to("/images", indices[i]));
+        out.push_back(std::move(decoded[i].pixels));
+    }
+    return out;
+}
+
+void AssetImages::decode(Scene& scene) {
+    constexpr const char* white = "; white is used in its place";
+    const std::vector<uint32_t> in_use = images_in_use(scene);
+    std::vector<std::span<const std::byte>> sources;
+    for (const uint32_t image : in_use) {
+        context_.check_cancel();
+        sources.push_back(encoded(image, white));
+    }
+
+    std::vector<DecodedImage> decoded = decode_all(sources);
 
     std::vector<uint8_t> lost(scene.images.size(), 0);
     for (size_t i = 0; i < in_use.size(); ++i) {
@@ -81,7 +101,7 @@ void AssetImages::decode(Scene& scene) {
         }
         lost[image] = 1;
         if (!sources[i].empty()) {
-            context_.warn(pointer_to("/images", image), decoded[i].error + "; white is used in its place");
+            context_.warn(pointer_to("/images", image), decoded[i].error + white);
         }
     }
     // Whatever has no pixels now reads as white; white as a normal map would tilt every normal.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "renderer/io/buffers.h"
+#include "renderer/io/images.h"
 
 namespace candela {
 
@@ -18,9 +19,13 @@ class AssetImages {
     // as a normal texture is left out.
     void decode(Scene& scene);
 
+    // Decodes pictures that are no textures. Empty with a warning where one is missing or damaged.
+    std::vector<ImageRgba8> decode_apart(const std::vector<uint32_t>& indices);
+
   private:
-    // Empty with a warning where the bytes cannot be had.
-    std::span<const std::byte> encoded(size_t index);
+    // Empty with a warning where the bytes cannot be had. consequence: what becomes of it.
+    std::span<const std::byte> encoded(size_t index, const char* consequence);
+    std::vector<DecodedImage> decode_all(std::span<const std::span<const std::byte>> sources);
 
     LoadContext& context_;
     const Layout& layout_;

@@ -16,6 +16,7 @@ struct Known {
 };
 
 constexpr Known known[] = {
+    {"EXT_lights_image_based", Treatment::rendered, true, ""},
     {"EXT_meshopt_compression", Treatment::rendered, true, ""},
     {"EXT_texture_webp", Treatment::rendered, true, ""},
     {"KHR_lights_punctual", Treatment::rendered, true, ""},

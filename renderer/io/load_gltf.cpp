@@ -8,6 +8,7 @@
 #include "renderer/io/asset_images.h"
 #include "renderer/io/extensions.h"
 #include "renderer/io/glb_container.h"
+#include "renderer/io/image_based_light.h"
 #include "renderer/io/materials.h"
 #include "renderer/io/meshes.h"
 #include "renderer/io/nodes.h"
@@ -92,6 +93,7 @@ Scene load(LoadContext& context, const std::filesystem::path& path) {
     if (context.options().decode_images) {
         context.progress(0.4f, "images");
         images.decode(scene);
+        load_image_based_light(context, document, images, scene);
     }
     context.progress(1.0f, "done");
     return scene;

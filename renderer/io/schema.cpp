@@ -19,6 +19,7 @@ struct Rule {
 };
 
 constexpr bool needed = true;
+constexpr std::string_view image_lights_path = "extensions/EXT_lights_image_based/lights";
 constexpr std::string_view lights_path = "extensions/KHR_lights_punctual/lights";
 
 // Parents stand before their members, so that a walk meets only containers of checked type.
@@ -188,6 +189,15 @@ constexpr Rule rules[] = {
     {"skins/*/joints", Kind::array, {}, needed},
     {"skins/*/joints/*", Kind::index, "nodes"},
 
+    {"extensions/EXT_lights_image_based", Kind::object},
+    {"extensions/EXT_lights_image_based/lights", Kind::array, {}, needed},
+    {"extensions/EXT_lights_image_based/lights/*", Kind::object},
+    {"extensions/EXT_lights_image_based/lights/*/intensity", Kind::number},
+    {"extensions/EXT_lights_image_based/lights/*/rotation", Kind::numbers, {}, false, 0, 4},
+    {"extensions/EXT_lights_image_based/lights/*/specularImages", Kind::array, {}, needed},
+    {"extensions/EXT_lights_image_based/lights/*/specularImages/*", Kind::array},
+    {"extensions/EXT_lights_image_based/lights/*/specularImages/*/*", Kind::index, "images"},
+
     {"nodes", Kind::array},
     {"nodes/*", Kind::object},
     {"nodes/*/name", Kind::string},
@@ -210,6 +220,9 @@ constexpr Rule rules[] = {
     {"scenes/*/name", Kind::string},
     {"scenes/*/nodes", Kind::array},
     {"scenes/*/nodes/*", Kind::index, "nodes"},
+    {"scenes/*/extensions", Kind::object},
+    {"scenes/*/extensions/EXT_lights_image_based", Kind::object},
+    {"scenes/*/extensions/EXT_lights_image_based/light", Kind::index, image_lights_path, needed},
     {"scene", Kind::index, "scenes"},
 
     {"animations", Kind::array},

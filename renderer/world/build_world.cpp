@@ -69,7 +69,7 @@ std::string instance_name(const Scene& scene, const Instance& instance) {
     return node.empty() ? "/nodes/" + std::to_string(instance.node.value) : "node \"" + node + "\"";
 }
 
-void gather_lights(World& world, const std::optional<Environment>& fallback) {
+void gather_lights(World& world, const std::optional<Environment>& chosen) {
     // Punctual lights are few; emissive triangles come in the order of their surfaces.
     for (const LightInstance& light : world.scene->light_instances) {
         world.lights.punctual.push_back(place_light(world.scene->lights[light.light.value], light.world_from_light));
@@ -78,7 +78,7 @@ void gather_lights(World& world, const std::optional<Environment>& fallback) {
         Surface& surface = world.surfaces[i];
         if (world.materials[surface.material].emits()) append_emissive_triangles(world, i, surface, world.lights);
     }
-    const std::optional<Environment>& environment = world.scene->environment ? world.scene->environment : fallback;
+    const std::optional<Environment>& environment = chosen ? chosen : world.scene->environment;
     if (environment) world.lights.environment.emplace(*environment);
     finish_lights(world.lights, world.bounds);
 }

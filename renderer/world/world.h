@@ -63,7 +63,7 @@ struct World {
 };
 
 struct BuildOptions {
-    // Used when the scene has no environment of its own; none: black.
+    // In place of the one that the scene brings along; none of either: black.
     std::optional<Environment> environment;
     std::function<void(float)> progress;        // 0..1, any thread
     const std::atomic<bool>* cancel = nullptr;  // set: the build ends soon with AccelError "cancelled"
