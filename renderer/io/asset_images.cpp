@@ -66,10 +66,12 @@ std::vector<DecodedImage> AssetImages::decode_all(std::span<const std::span<cons
 
 std::vector<ImageRgba8> AssetImages::decode_apart(const std::vector<uint32_t>& indices) {
     std::vector<std::span<const std::byte>> sources;
+    sources.reserve(indices.size());
     for (const uint32_t index : indices)
         sources.push_back(encoded(index, ""));
     std::vector<DecodedImage> decoded = decode_all(sources);
     std::vector<ImageRgba8> out;
+    out.reserve(indices.size());
     for (size_t i = 0; i < indices.size(); ++i) {
         if (!sources[i].empty() && !decoded[i].error.empty()) {
             context_.warn(pointer_to("/images", indices[i]), decoded[i].error);
