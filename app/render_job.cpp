@@ -36,7 +36,7 @@ std::optional<Environment> place_environment(const Environment* environment, con
 bool has_light(const Scene& scene) {
     if (!scene.light_instances.empty()) return true;
     for (const Instance& instance : scene.instances) {
-        for (const Primitive& primitive : scene.meshes[instance.mesh.value].primitives) {
+        for (const Primitive& primitive : scene.mesh(instance.mesh).primitives) {
             if (primitive.material.valid() && scene.materials[primitive.material.value].emits()) return true;
         }
     }

@@ -6,6 +6,7 @@
 
 #include "app/commands.h"
 #include "renderer/io/load_gltf.h"
+#include "renderer/scene/animation.h"
 
 namespace candela {
 
@@ -29,8 +30,8 @@ const char* word_for(ExtensionUse::Treatment treatment) {
 
 uint64_t vertex_bytes(const Scene& scene) {
     uint64_t bytes = 0;
-    for (const Mesh& mesh : scene.meshes) {
-        for (const Primitive& p : mesh.primitives) {
+    for (const std::shared_ptr<const Mesh>& mesh : scene.meshes) {
+        for (const Primitive& p : mesh->primitives) {
             bytes += p.positions.size() * sizeof(Vec3) + p.normals.size() * sizeof(Vec3) +
                      p.tangents.size() * sizeof(Vec4) + (p.uv[0].size() + p.uv[1].size()) * sizeof(Vec2) +
                      p.colors.size() * sizeof(Vec4) + p.triangles.size() * sizeof(Vec3u);
@@ -44,15 +45,11 @@ OrderedJson describe(const Scene& scene, const Diagnostics& diagnostics) {
     out["scene"] = scene.source;
     out["scenes"] = scene.scene_names;
     out["active_scene"] = scene.active_scene;
-    out["counts"] = {{"nodes", scene.nodes.size()},
-                     {"meshes", scene.meshes.size()},
-                     {"materials", scene.materials.size()},
-                     {"textures", scene.textures.size()},
-                     {"images", scene.images.size()},
-                     {"instances", scene.instances.size()},
-                     {"cameras", scene.cameras.size()},
-                     {"lights", scene.light_instances.size()},
-                     {"animations", scene.animation_names.size()}};
+    out["counts"] = {{"nodes", scene.nodes.size()},          {"meshes", scene.meshes.size()},
+                     {"materials", scene.materials.size()},  {"textures", scene.textures.size()},
+                     {"images", scene.images.size()},        {"instances", scene.instances.size()},
+                     {"cameras", scene.cameras.size()},      {"lights", scene.light_instances.size()},
+                     {"animations", scene.animations.size()}};
     out["triangles"] = unique_triangle_count(scene);
     out["placed_triangles"] = instanced_triangle_count(scene);
     out["vertex_bytes"] = vertex_bytes(scene);
@@ -65,7 +62,9 @@ OrderedJson describe(const Scene& scene, const Diagnostics& diagnostics) {
     for (const CameraInstance& camera : scene.cameras) {
         out["cameras"].push_back({{"name", camera.name}, {"projection", name_of(camera.camera.projection)}});
     }
-    out["animations"] = scene.animation_names;
+    out["animations"] = OrderedJson::array();
+    for (const std::shared_ptr<const Animation>& animation : scene.animations)
+        out["animations"].push_back(animation->name);
     out["extensions"] = OrderedJson::array();
     for (const ExtensionUse& use : scene.extensions) {
         out["extensions"].push_back(
@@ -83,7 +82,7 @@ void print_tree(const Scene& scene, NodeId id, int depth) {
     const std::string name = node.name.empty() ? fmt::format("node {}", id.value) : node.name;
     std::string holds;
     if (node.mesh.valid()) {
-        const Mesh& mesh = scene.meshes[node.mesh.value];
+        const Mesh& mesh = scene.mesh(node.mesh);
         holds = fmt::format("  mesh {} ({} primitives)",
                             mesh.name.empty() ? std::to_string(node.mesh.value) : mesh.name, mesh.primitives.size());
     }

@@ -98,7 +98,7 @@ void AssetImages::decode(Scene& scene) {
         const uint32_t image = in_use[i];
         if (decoded[i].error.empty() && !decoded[i].pixels.empty()) {
             context_.charge(decoded[i].pixels.size(), sizeof(Rgba8), pointer_to("/images", image));
-            scene.images[image].pixels = std::move(decoded[i].pixels);
+            scene.images[image].pixels = std::make_shared<const ImageRgba8>(std::move(decoded[i].pixels));
             continue;
         }
         lost[image] = 1;
@@ -107,8 +107,9 @@ void AssetImages::decode(Scene& scene) {
         }
     }
     // Whatever has no pixels now reads as white; white as a normal map would tilt every normal.
+    const auto white_texel = std::make_shared<const ImageRgba8>(1, 1, Rgba8(255));
     for (SceneImage& image : scene.images) {
-        if (image.pixels.empty()) image.pixels = ImageRgba8(1, 1, Rgba8(255));
+        if (!image.pixels) image.pixels = white_texel;
     }
     for (Material& material : scene.materials) {
         for (TextureRef* normal : {&material.normal, &material.clearcoat.normal}) {

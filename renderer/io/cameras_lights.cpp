@@ -5,29 +5,8 @@
 namespace candela {
 namespace {
 
-// Right, up, back, orthonormal and right-handed whatever the node scales, mirrors or shears: the view axis is kept
-// first, then the up axis as far as it can be.
-Mat4 rigid(const Mat4& world_from_node) {
-    const glm::dmat4 m(world_from_node);
-    glm::dvec3 back(m[2]), up(m[1]);
-    back = glm::length(back) > 1e-30 ? glm::normalize(back) : glm::dvec3(0, 0, 1);
-    up -= back * glm::dot(back, up);
-    if (!(glm::length(up) > 1e-30)) {
-        const glm::dvec3 axis = std::abs(back.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-        up = axis - back * glm::dot(back, axis);
-    }
-    up = glm::normalize(up);
-    const glm::dvec3 right = glm::cross(up, back);
-    return Mat4(Vec4(right, 0.0f), Vec4(up, 0.0f), Vec4(back, 0.0f), Vec4(Vec3(m[3]), 1.0f));
-}
-
-}  // namespace
-
-Camera make_camera(LoadContext& context, const tinygltf::Model& model, uint32_t index, const Mat4& world_from_node) {
-    const tinygltf::Camera& source = model.cameras[index];
-    const std::string where = pointer_to("/cameras", index, source.type);
+Camera make_camera(LoadContext& context, const tinygltf::Camera& source, const std::string& where) {
     Camera camera;
-    camera.world_from_camera = rigid(world_from_node);
     if (source.type == "perspective") {
         const tinygltf::PerspectiveCamera& perspective = source.perspective;
         if (!(perspective.yfov > 0.0 && perspective.yfov < 3.14159)) {
@@ -46,6 +25,21 @@ Camera make_camera(LoadContext& context, const tinygltf::Model& model, uint32_t 
         camera.aspect = static_cast<float>(std::abs(orthographic.xmag / orthographic.ymag));
     }
     return camera;
+}
+
+}  // namespace
+
+void load_cameras(LoadContext& context, const tinygltf::Model& model, Scene& scene) {
+    std::vector<uint8_t> used(model.cameras.size(), 0);
+    for (const Node& node : scene.nodes) {
+        if (node.camera.valid()) used[node.camera.value] = 1;
+    }
+    for (size_t i = 0; i < model.cameras.size(); ++i) {
+        FileCamera& out = scene.file_cameras.emplace_back();
+        out.name = model.cameras[i].name;
+        if (used[i] == 0) continue;
+        out.camera = make_camera(context, model.cameras[i], pointer_to("/cameras", i, model.cameras[i].type));
+    }
 }
 
 void load_lights(LoadContext& context, const tinygltf::Model& model, Scene& scene) {

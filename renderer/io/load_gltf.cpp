@@ -15,6 +15,8 @@
 #include "renderer/io/schema.h"
 #include "renderer/io/structure.h"
 #include "renderer/io/tinygltf.h"
+#include "renderer/scene/animation.h"
+#include "renderer/scene/pose.h"
 
 namespace candela {
 namespace {
@@ -50,10 +52,21 @@ AssetFiles open_directory(LoadContext& context, const std::filesystem::path& pat
 void list_animations(LoadContext& context, const Json& document, Scene& scene) {
     const auto animations = document.find("animations");
     if (animations == document.end()) return;
-    for (const Json& animation : *animations)
-        scene.animation_names.push_back(animation.value("name", std::string()));
-    if (!scene.animation_names.empty()) {
+    for (const Json& animation : *animations) {
+        auto out = std::make_shared<Animation>();
+        out->name = animation.value("name", std::string());
+        scene.animations.push_back(std::move(out));
+    }
+    if (!scene.animations.empty()) {
         context.warn("/animations", "animations are not played; the nodes stand as the file places them");
+    }
+}
+
+void take_rest_pose(LoadContext& context, Scene& scene) {
+    mark_moving_nodes(scene);
+    for (const NodeId node : pose_scene(scene)) {
+        context.warn(pointer_to("/nodes", node.value),
+                     "its transform in the world is not finite; what it holds is not shown");
     }
 }
 
@@ -85,11 +98,14 @@ Scene load(LoadContext& context, const std::filesystem::path& path) {
     load_materials(context, model, scene);
     load_nodes(context, model, scene);
     load_lights(context, model, scene);
-    load_meshes(context, model, accessors, scene);
-    place_nodes(context, model, scene);
-
+    load_cameras(context, model, scene);
+    std::vector<Mesh> meshes = load_meshes(context, model, accessors, scene);
     context.progress(0.3f, "tangents");
-    generate_missing_tangents(context, scene);
+    generate_missing_tangents(context, scene, meshes);
+    for (Mesh& mesh : meshes)
+        scene.meshes.push_back(std::make_shared<const Mesh>(std::move(mesh)));
+    take_rest_pose(context, scene);
+
     if (context.options().decode_images) {
         context.progress(0.4f, "images");
         images.decode(scene);

@@ -12,8 +12,8 @@ namespace {
 
 class PrimitiveLoader {
   public:
-    PrimitiveLoader(LoadContext& context, AccessorReader& accessors, Scene& scene, const tinygltf::Primitive& source,
-                    std::string where)
+    PrimitiveLoader(LoadContext& context, AccessorReader& accessors, const Scene& scene,
+                    const tinygltf::Primitive& source, std::string where)
         : context_(context), accessors_(accessors), scene_(scene), source_(source), where_(std::move(where)) {}
 
     // Empty where there is nothing to show.
@@ -31,7 +31,7 @@ class PrimitiveLoader {
 
     LoadContext& context_;
     AccessorReader& accessors_;
-    Scene& scene_;
+    const Scene& scene_;
     const tinygltf::Primitive& source_;
     std::string where_;
 };
@@ -181,10 +181,12 @@ void warn_of_ignored_features(LoadContext& context, const tinygltf::Model& model
 
 }  // namespace
 
-void load_meshes(LoadContext& context, const tinygltf::Model& model, AccessorReader& accessors, Scene& scene) {
+std::vector<Mesh> load_meshes(LoadContext& context, const tinygltf::Model& model, AccessorReader& accessors,
+                              const Scene& scene) {
+    std::vector<Mesh> meshes;
     for (size_t m = 0; m < model.meshes.size(); ++m) {
         const tinygltf::Mesh& source = model.meshes[m];
-        Mesh& mesh = scene.meshes.emplace_back();
+        Mesh& mesh = meshes.emplace_back();
         mesh.name = source.name;
         for (size_t p = 0; p < source.primitives.size(); ++p) {
             context.check_cancel();
@@ -194,11 +196,12 @@ void load_meshes(LoadContext& context, const tinygltf::Model& model, AccessorRea
         }
     }
     warn_of_ignored_features(context, model);
+    return meshes;
 }
 
-void generate_missing_tangents(LoadContext& context, Scene& scene) {
-    for (size_t m = 0; m < scene.meshes.size(); ++m) {
-        for (Primitive& primitive : scene.meshes[m].primitives) {
+void generate_missing_tangents(LoadContext& context, const Scene& scene, std::vector<Mesh>& meshes) {
+    for (size_t m = 0; m < meshes.size(); ++m) {
+        for (Primitive& primitive : meshes[m].primitives) {
             if (!primitive.material.valid() || !primitive.tangents.empty()) continue;
             const std::optional<uint32_t> uv_set = tangent_uv_set(scene.materials[primitive.material.value]);
             if (!uv_set || primitive.uv[*uv_set].empty()) continue;

@@ -6,7 +6,7 @@ namespace candela {
 Bounds3 bounds_of(const Scene& scene) {
     Bounds3 bounds;
     for (const Instance& instance : scene.instances) {
-        for (const Primitive& primitive : scene.meshes[instance.mesh.value].primitives) {
+        for (const Primitive& primitive : scene.mesh(instance.mesh).primitives) {
             // Only vertices that a triangle uses count.
             for (const Vec3u& triangle : primitive.triangles) {
                 for (int i = 0; i < 3; ++i) {
@@ -32,15 +32,15 @@ uint64_t triangles_of(const Mesh& mesh) {
 
 uint64_t unique_triangle_count(const Scene& scene) {
     uint64_t count = 0;
-    for (const Mesh& mesh : scene.meshes)
-        count += triangles_of(mesh);
+    for (size_t m = 0; m < scene.meshes.size() - scene.posed_mesh_count; ++m)
+        count += triangles_of(*scene.meshes[m]);
     return count;
 }
 
 uint64_t instanced_triangle_count(const Scene& scene) {
     uint64_t count = 0;
     for (const Instance& instance : scene.instances)
-        count += triangles_of(scene.meshes[instance.mesh.value]);
+        count += triangles_of(scene.mesh(instance.mesh));
     return count;
 }
 

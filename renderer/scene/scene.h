@@ -4,6 +4,7 @@
 // (0,0) at the top left, as glTF has it. All transforms map column vectors.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@
 #include "renderer/scene/camera.h"
 
 namespace candela {
+
+struct Animation;
+struct Deformation;
 
 // An index into one of Scene's vectors; Tag tells which.
 template <typename Tag>
@@ -30,6 +34,7 @@ using ImageId = Id<struct ImageTag>;
 using NodeId = Id<struct NodeTag>;
 using LightId = Id<struct LightTag>;
 using CameraId = Id<struct CameraTag>;
+using SkinId = Id<struct SkinTag>;
 
 // Triangles that share one material: a glTF primitive. Per-vertex arrays are empty or as long as positions.
 struct Primitive {
@@ -41,11 +46,14 @@ struct Primitive {
     std::vector<Vec3u> triangles;  // vertex indices, all in range
     MaterialId material;           // invalid: glTF's default material
     bool flat_normals = false;     // the file gives no normals: the geometric normal shades, normals is empty
+    // Morph targets and joint influences (deform.h), for the vertices as the file models them; null: a rigid shape.
+    std::shared_ptr<const Deformation> deformation;
 };
 
 struct Mesh {
     std::string name;
     std::vector<Primitive> primitives;
+    std::vector<float> morph_weights;  // one for each morph target, for nodes that bring none
 };
 
 // A mesh placed in the world: the flattened result of walking the active scene's nodes.
@@ -53,6 +61,8 @@ struct Instance {
     MeshId mesh;
     NodeId node;
     Mat4 world_from_object{1.0f};
+    bool moves = false;    // another pose of the scene may place or deform it otherwise
+    bool deforms = false;  // its mesh is a copy of its own, which another pose may replace
 };
 
 enum class WrapMode : uint8_t { repeat, clamp_to_edge, mirrored_repeat };
@@ -173,7 +183,7 @@ struct Material {
 // 8 bits a channel as stored in the file; whether it is sRGB follows from the use, not from the image.
 struct SceneImage {
     std::string name;
-    ImageRgba8 pixels;
+    std::shared_ptr<const ImageRgba8> pixels;  // null: not decoded
 };
 
 enum class LightKind : uint8_t { point, spot, directional };
@@ -201,13 +211,36 @@ struct CameraInstance {
     Camera camera;  // pose and projection in world space
 };
 
+// A camera as the file describes it, before a node places it.
+struct FileCamera {
+    std::string name;
+    Camera camera;  // its pose means nothing
+};
+
+struct Skin {
+    std::string name;
+    std::vector<NodeId> joints;
+    std::vector<Mat4> joint_from_mesh;  // inverse bind matrices, one for each joint
+};
+
 struct Node {
     std::string name;
     NodeId parent;
     std::vector<NodeId> children;
     Mat4 parent_from_node{1.0f};
+    // parent_from_node = translation · rotation · scale, unless the file gives a matrix: then as near as three can be.
+    Vec3 translation{0.0f};
+    Quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
+    Vec3 scale{1.0f};
+    bool is_matrix = false;
     MeshId mesh;
+    SkinId skin;
+    LightId light;
+    CameraId camera;
+    std::vector<float> morph_weights;  // one for each morph target of its mesh
+    bool visible = true;               // false: neither it nor what hangs from it is shown
     bool in_active_scene = false;
+    bool moves = false;  // an animation moves, shows or hides it or one of its ancestors
 };
 
 // An equirectangular environment. Direction (x,y,z) reads u = atan2(z,x)/2π + ½ from the left and v = ½ − asin(y)/π
@@ -226,30 +259,39 @@ struct ExtensionUse {
     std::string how;  // what an approximation does
 };
 
+// Copies share meshes, pictures and animations; whoever changes one of these puts another in its place. So equal
+// pointers tell that a mesh has the same shape in two poses.
 struct Scene {
     std::string source;  // the path as given
-    std::vector<Mesh> meshes;
+    // The file's meshes; then, one for each instance that deforms, its mesh in this pose.
+    std::vector<std::shared_ptr<const Mesh>> meshes;
+    uint32_t posed_mesh_count = 0;
     std::vector<Material> materials;
     std::vector<Texture> textures;
     std::vector<SceneImage> images;
     std::vector<PunctualLight> lights;
+    std::vector<FileCamera> file_cameras;
+    std::vector<std::shared_ptr<const Skin>> skins;
+    std::vector<std::shared_ptr<const Animation>> animations;
     std::vector<Node> nodes;
+    std::vector<NodeId> roots;             // of the active scene
     std::vector<std::string> scene_names;  // all scenes of the file
     uint32_t active_scene = 0;
 
-    // The active scene, flattened.
+    // The active scene, flattened (place_nodes.h).
     std::vector<Instance> instances;
     std::vector<LightInstance> light_instances;
     std::vector<CameraInstance> cameras;
     std::optional<Environment> environment;
 
     std::vector<ExtensionUse> extensions;
-    std::vector<std::string> animation_names;
+
+    const Mesh& mesh(MeshId id) const { return *meshes[id.value]; }
 };
 
 // World-space bounds of all instances of the active scene.
 Bounds3 bounds_of(const Scene& scene);
-// Triangles of all meshes, each counted once, and of all instances.
+// Triangles of all the file's meshes, each counted once, and of all instances.
 uint64_t unique_triangle_count(const Scene& scene);
 uint64_t instanced_triangle_count(const Scene& scene);
 

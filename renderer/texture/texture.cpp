@@ -70,8 +70,9 @@ std::vector<TextureView> make_texture_views(const Scene& scene) {
         view.wrap_u = texture.wrap_u;
         view.wrap_v = texture.wrap_v;
         view.filter = texture.filter;
-        if (texture.image.valid() && !scene.images[texture.image.value].pixels.empty()) {
-            const ImageRgba8& image = scene.images[texture.image.value].pixels;
+        const ImageRgba8* pixels = texture.image.valid() ? scene.images[texture.image.value].pixels.get() : nullptr;
+        if (pixels != nullptr && !pixels->empty()) {
+            const ImageRgba8& image = *pixels;
             view.pixels = image.data();
             view.width = image.width();
             view.height = image.height();

@@ -42,9 +42,9 @@ class OpacityScan {
 
     bool texture_has_alpha(TextureId id) {
         const ImageId image = scene_.textures[id.value].image;
-        if (!image.valid()) return false;
+        if (!image.valid() || !scene_.images[image.value].pixels) return false;
         Known& known = image_alpha_[image.value];
-        if (known == unknown) known = has_alpha(scene_.images[image.value].pixels) ? transparent : opaque;
+        if (known == unknown) known = has_alpha(*scene_.images[image.value].pixels) ? transparent : opaque;
         return known == transparent;
     }
 
@@ -119,7 +119,7 @@ std::shared_ptr<const World> build_world(std::shared_ptr<const Scene> scene_poin
     };
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
-        const Mesh& mesh = scene.meshes[instance.mesh.value];
+        const Mesh& mesh = scene.mesh(instance.mesh);
         if (mesh.primitives.empty()) continue;
         if (kinds[i] == TransformKind::unusable) {
             world->warnings.push_back(instance_name(scene, instance) +

@@ -13,8 +13,9 @@ using namespace test;
 Scene lamp_with_one_bright_texel(bool mirrored) {
     Scene scene;
     SceneImage image;
-    image.pixels = ImageRgba8(8, 8, Rgba8{0, 0, 0, 255});
-    image.pixels(5, 2) = Rgba8{255, 255, 255, 255};
+    ImageRgba8 texels(8, 8, Rgba8{0, 0, 0, 255});
+    texels(5, 2) = Rgba8{255, 255, 255, 255};
+    image.pixels = std::make_shared<const ImageRgba8>(std::move(texels));
     scene.images.push_back(image);
     Texture texture;
     texture.image = {0};

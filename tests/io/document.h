@@ -149,7 +149,7 @@ class GltfTest : public ::testing::Test {
             out += warning.where + ": " + warning.message + "\n";
         return out;
     }
-    static const Primitive& first(const Scene& scene) { return scene.meshes.at(0).primitives.at(0); }
+    static const Primitive& first(const Scene& scene) { return scene.meshes.at(0)->primitives.at(0); }
 
     std::filesystem::path folder_;
     Diagnostics diagnostics_;

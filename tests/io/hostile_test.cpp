@@ -92,8 +92,8 @@ Document everything() {
 }
 
 void expect_sound(const Scene& scene, const std::string& what) {
-    for (const Mesh& mesh : scene.meshes) {
-        for (const Primitive& p : mesh.primitives) {
+    for (const std::shared_ptr<const Mesh>& mesh : scene.meshes) {
+        for (const Primitive& p : mesh->primitives) {
             const size_t n = p.positions.size();
             ASSERT_TRUE(p.flat_normals ? p.normals.empty() : p.normals.size() == n) << what;
             ASSERT_TRUE(p.tangents.empty() || p.tangents.size() == n) << what;

@@ -51,7 +51,7 @@ std::string document(const std::string& nodes, const std::string& more = "") {
 TEST_F(LoadGltf, TriangleWithByteIndicesAndFlatNormals) {
     const Scene scene = load(document(R"([{"mesh":0}])"));
     ASSERT_EQ(scene.meshes.size(), 1u);
-    const Primitive& p = scene.meshes[0].primitives.at(0);
+    const Primitive& p = scene.meshes[0]->primitives.at(0);
     EXPECT_EQ(p.triangles.at(0), Vec3u(0, 1, 2));
     EXPECT_EQ(p.positions.at(1), Vec3(1, 0, 0));
     EXPECT_TRUE(p.flat_normals);

@@ -199,7 +199,7 @@ TEST_F(Materials, EveryTextureThatAMaterialReadsIsDecoded) {
     options_.decode_images = true;
     const Scene scene = load(document);
     for (size_t i = 0; i < std::size(places); ++i)
-        EXPECT_EQ(scene.images[i].pixels.width(), 2) << places[i].second << "\n" << all_warnings();
+        EXPECT_EQ(scene.images[i].pixels->width(), 2) << places[i].second << "\n" << all_warnings();
 }
 
 TEST_F(Materials, SpecularGlossinessReplacesMetallicRoughness) {
@@ -264,7 +264,7 @@ TEST_F(Materials, TextureTransformAgreesWithTheMarkersOfTheSampleModel) {
         const Vec2 p(marker.parent_from_node[3]);
         return Vec2(p.x + 0.5f, 0.5f - p.y);
     };
-    const Primitive& quad = scene.meshes.at(3).primitives.at(0);
+    const Primitive& quad = scene.meshes.at(3)->primitives.at(0);
     for (size_t i = 0; i < quad.positions.size(); ++i) {
         ASSERT_EQ(quad.uv[0][i], Vec2(quad.positions[i].x + 0.5f, 0.5f - quad.positions[i].y));
     }
@@ -296,8 +296,8 @@ TEST_F(Materials, ImagesThatCannotBeReadBecomeWhiteAndLeaveNormalsAlone) {
     write("b.webp", "this is no image");
     const Scene scene = load(document);
     for (const SceneImage& image : scene.images) {
-        ASSERT_EQ(image.pixels.size(), 1u);
-        EXPECT_EQ(image.pixels(0, 0), Rgba8(255));
+        ASSERT_EQ(image.pixels->size(), 1u);
+        EXPECT_EQ((*image.pixels)(0, 0), Rgba8(255));
     }
     EXPECT_TRUE(scene.materials.at(0).base_color.valid());
     EXPECT_FALSE(scene.materials[0].normal.valid()) << "white would tilt every normal";
@@ -314,7 +314,7 @@ TEST_F(Materials, ImagesAreDecodedFromDataUrisFilesAndViews) {
                                {{"uri", std::string("data:;base64,") + red_png}}};
     const Scene scene = load(document);
     for (const SceneImage& image : scene.images)
-        EXPECT_EQ(image.pixels(0, 0), Rgba8(255, 0, 0, 255)) << all_warnings();
+        EXPECT_EQ((*image.pixels)(0, 0), Rgba8(255, 0, 0, 255)) << all_warnings();
 
     // The same bytes as a buffer view. The view of 5 bytes is damaged, not out of range.
     std::ifstream source(shared_data() / "models/TextureTransformTest/glTF/Arrow.png", std::ios::binary);
@@ -324,8 +324,8 @@ TEST_F(Materials, ImagesAreDecodedFromDataUrisFilesAndViews) {
     const int cut = document.add_view(png.data(), 5);
     document.json["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}}, {{"bufferView", cut}}};
     const Scene from_views = load(document);
-    EXPECT_GT(from_views.images.at(0).pixels.size(), 100u);
-    EXPECT_EQ(from_views.images.at(1).pixels.size(), 1u);
+    EXPECT_GT(from_views.images.at(0).pixels->size(), 100u);
+    EXPECT_EQ(from_views.images.at(1).pixels->size(), 1u);
     EXPECT_TRUE(warned("/images/1", "white is used")) << all_warnings();
 }
 

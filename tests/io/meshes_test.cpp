@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "renderer/scene/animation.h"
 #include "tests/io/document.h"
 
 namespace candela {
@@ -48,7 +49,7 @@ TEST_F(Meshes, StripsAndFansKeepTheirWinding) {
 
 TEST_F(Meshes, PointsAndLinesAreNamedAndSkipped) {
     const Scene points = load(polygon(6, 0));
-    EXPECT_TRUE(points.meshes.at(0).primitives.empty());
+    EXPECT_TRUE(points.meshes.at(0)->primitives.empty());
     EXPECT_TRUE(points.instances.empty());
     EXPECT_TRUE(warned("/meshes/0/primitives/0", "points are not shown")) << all_warnings();
     for (const int mode : {1, 2, 3}) {
@@ -92,8 +93,8 @@ TEST_F(Meshes, SharedVerticesAreNotCopiedToEveryPrimitive) {
     const int indices = document.add_accessor<uint16_t>({997, 5, 998}, "SCALAR", u16);
     document.add_primitive({{"POSITION", positions}}, indices);
     const Scene scene = load(document);
-    EXPECT_EQ(scene.meshes.at(1).primitives.at(0).positions.size(), 3u);
-    EXPECT_EQ(scene.meshes[1].primitives[0].triangles.at(0), Vec3u(1, 0, 2));
+    EXPECT_EQ(scene.meshes.at(1)->primitives.at(0).positions.size(), 3u);
+    EXPECT_EQ(scene.meshes[1]->primitives[0].triangles.at(0), Vec3u(1, 0, 2));
 }
 
 TEST_F(Meshes, TwoUvSets) {
@@ -166,7 +167,8 @@ TEST_F(Meshes, MorphTargetsAndSkinsAreSaidOnce) {
     document.json["animations"] = {{{"name", "walk"}, {"channels", Json::array()}, {"samplers", Json::array()}}};
     const Scene scene = load(document);
     EXPECT_EQ(first(scene).positions.at(1), Vec3(1, 0, 0));
-    EXPECT_EQ(scene.animation_names, std::vector<std::string>{"walk"});
+    ASSERT_EQ(scene.animations.size(), 1u);
+    EXPECT_EQ(scene.animations[0]->name, "walk");
     EXPECT_TRUE(warned("/meshes/0/primitives/0/targets", "morph targets are ignored"));
     EXPECT_TRUE(warned("/nodes/0/skin", "skins are ignored"));
     EXPECT_TRUE(warned("/animations", "not played"));

@@ -82,7 +82,7 @@ TEST(Models, BoxWithSpacesInItsNames) {
     for (const Diagnostic& warning : diagnostics.warnings())
         ADD_FAILURE() << warning.where << ": " << warning.message;
     for (const SceneImage& image : scene.images)
-        EXPECT_GT(image.pixels.size(), 1u) << image.name;
+        EXPECT_GT(image.pixels->size(), 1u) << image.name;
 }
 
 // Compressed and quantised, the box is still a unit cube with its normals pointing out.
@@ -94,7 +94,7 @@ TEST(Models, MeshoptAndQuantizedFormsShowTheSameBox) {
     const Bounds3 bounds = bounds_of(scene);
     EXPECT_NEAR(glm::distance(bounds.lower, Vec3(-0.5f)), 0.0f, 1e-3f);
     EXPECT_NEAR(glm::distance(bounds.upper, Vec3(0.5f)), 0.0f, 1e-3f);
-    const Primitive& box = scene.meshes.at(0).primitives.at(0);
+    const Primitive& box = scene.meshes.at(0)->primitives.at(0);
     for (const Vec3u& t : box.triangles) {
         const auto& p = box.positions;
         const Vec3 geometric = glm::normalize(glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]));

@@ -29,8 +29,8 @@ TEST(SharedFiles, InvalidOnesEndWithAReasonOrAWarning) {
         Diagnostics diagnostics;
         try {
             const Scene scene = load_gltf(file, diagnostics);
-            for (const Mesh& mesh : scene.meshes) {
-                for (const Primitive& p : mesh.primitives) {
+            for (const std::shared_ptr<const Mesh>& mesh : scene.meshes) {
+                for (const Primitive& p : mesh->primitives) {
                     for (const Vec3u& t : p.triangles)
                         ASSERT_LT(std::max({t.x, t.y, t.z}), p.positions.size()) << file;
                 }

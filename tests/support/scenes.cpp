@@ -63,12 +63,13 @@ void add_object(Scene& scene, Primitive primitive, MaterialId material, const Ma
     primitive.material = material;
     Mesh mesh;
     mesh.primitives.push_back(std::move(primitive));
-    scene.meshes.push_back(std::move(mesh));
+    scene.meshes.push_back(std::make_shared<const Mesh>(std::move(mesh)));
     Node node;
     node.mesh = {static_cast<uint32_t>(scene.meshes.size() - 1)};
     node.in_active_scene = true;
     node.parent_from_node = world_from_object;
     scene.nodes.push_back(node);
+    scene.roots.push_back({static_cast<uint32_t>(scene.nodes.size() - 1)});
     scene.instances.push_back({node.mesh, {static_cast<uint32_t>(scene.nodes.size() - 1)}, world_from_object});
 }
 
