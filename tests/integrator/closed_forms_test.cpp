@@ -52,6 +52,36 @@ TEST(ClosedForms, PointLightOverLambertianPlane) {
     }
 }
 
+TEST(ClosedForms, LightsOfAllKindsAddUp) {
+    // Under a square lamp of side 2 at height 1: a point light below it, the sun past its edge, and what the lamp
+    // leaves of the sky.
+    Scene scene;
+    test::add_object(scene, test::make_quad(Vec3(-2, 0, 2), Vec3(4, 0, 0), Vec3(0, 0, -4)),
+                     test::add_lambert(scene, Vec3(1)));
+    test::add_object(scene, test::make_quad(Vec3(-1, 1, -1), Vec3(2, 0, 0), Vec3(0, 0, 2)),
+                     test::add_emitter(scene, Vec3(1)));
+    PunctualLight point;
+    point.intensity = 1.0f;
+    scene.lights.push_back(point);
+    scene.light_instances.push_back({{0}, {0}, glm::translate(Mat4(1), Vec3(0, 0.5f, 0))});
+    PunctualLight sun;
+    sun.kind = LightKind::directional;
+    sun.intensity = 0.5f;
+    scene.lights.push_back(sun);
+    // Shines along -Z of its node: turned to 60° from the plane's normal.
+    scene.light_instances.push_back(
+        {{1}, {0}, glm::rotate(Mat4(1), pi / 2, Vec3(0, 1, 0)) * glm::rotate(Mat4(1), -pi / 6, Vec3(1, 0, 0))});
+    scene.environment = test::constant_environment(Vec3(0.1f));
+    const auto world = test::build(std::move(scene));
+    // Form factor of a unit square at distance 1 over its corner, four times (Howell's catalogue, C-11).
+    constexpr double pi_d = 3.14159265358979;
+    const double lamp = 4 / pi_d * std::sqrt(0.5) * std::atan(std::sqrt(0.5));
+    const double exact = lamp + 0.1 * (1 - lamp) + (1 / 0.25 + 0.5 * 0.5) / pi_d;
+    const View view = look_at_point(Vec3(0.2f, 0.3f, 0.3f), Vec3(0), Vec3(0, 1, 0));
+    for (const Technique& technique : all_techniques)
+        expect_exact(measure(*world, view, technique, 64, 16384), exact, 1e-3, describe(technique));
+}
+
 TEST(ClosedForms, IntegratingSphereConvergesToTheGeometricSeries) {
     for (const float albedo : {0.5f, 0.9f}) {
         Scene scene;

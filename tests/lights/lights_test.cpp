@@ -174,6 +174,26 @@ TEST(Lights, APointLightFollowsTheInverseSquareLaw) {
     EXPECT_LT(glm::distance(s.wi, Vec3(0, 1, 0)), 1e-6f);
 }
 
+TEST(Lights, TheMeanOverTheChoiceIsTheSumOfAllPunctualLights) {
+    PlacedLight bright;
+    bright.position = {0, 3, 0};
+    bright.intensity = Vec3(18);
+    PlacedLight dim = bright;
+    dim.position = {0, 0, 2};
+    dim.intensity = Vec3(4);
+    PlacedLight sun;
+    sun.kind = LightKind::directional;
+    sun.intensity = Vec3(0.25f);
+    const Lights lights = make_lights({}, {bright, dim, sun});
+    Uniform uniform;
+    test::BatchMeans means;
+    for (int i = 0; i < 40000; ++i)
+        means.add(static_cast<double>(sample_light(lights, Vec3(0), uniform(), {0.5f, 0.5f}).weight.g));
+    EXPECT_TRUE(test::within_standard_errors(means, 18.0 / 9 + 4.0 / 4 + 0.25, 4))
+        << means.mean() << " ± " << means.standard_error();
+    EXPECT_LT(means.standard_error(), 0.02);
+}
+
 TEST(Lights, ASpotFallsOffBetweenItsCones) {
     // KHR_lights_punctual: t = (cos θ − cos outer) / (cos inner − cos outer), squared.
     PlacedLight spot;
