@@ -79,7 +79,7 @@ TEST(ClosedForms, LightsOfAllKindsAddUp) {
     const double exact = lamp + 0.1 * (1 - lamp) + (1 / 0.25 + 0.5 * 0.5) / pi_d;
     const View view = look_at_point(Vec3(0.2f, 0.3f, 0.3f), Vec3(0), Vec3(0, 1, 0));
     for (const Technique& technique : all_techniques)
-        expect_exact(measure(*world, view, technique, 64, 16384), exact, 1e-3, describe(technique));
+        expect_exact(measure(*world, view, technique, 128, 16384), exact, 1e-3, describe(technique));
 }
 
 TEST(ClosedForms, IntegratingSphereConvergesToTheGeometricSeries) {
