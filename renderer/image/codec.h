@@ -9,7 +9,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <variant>
+#include <vector>
 
 #include "renderer/image/image.h"
 
@@ -25,9 +25,14 @@ struct DecodeLimits {
     size_t max_pixels = size_t{1} << 28;
 };
 
-// Decodes PNG (1 to 16 bit, any colour type), JPEG (grey, YCbCr, CMYK) or WebP from memory, whichever its first bytes
-// say it is, to RGBA8 with straight alpha, values as stored (no colour conversion; 16-bit values keep their high byte).
+// Decodes PNG (1 to 16 bit, any colour type), JPEG (grey, YCbCr, CMYK), WebP or KTX2 (Basis Universal as
+// KHR_texture_basisu has it; its largest mip level) from memory, whichever its first bytes say it is, to RGBA8 with
+// straight alpha, values as stored (no colour conversion; 16-bit values are rounded to 8 bits).
 ImageRgba8 decode_ldr(std::span<const std::byte> bytes, const DecodeLimits& limits = {});
+
+// What a KTX2 file that decodes has against KHR_texture_basisu, where that does the picture no harm: predicates
+// ("has …", "says …"). Empty for other formats. color_data: it is used as sRGB colour.
+std::vector<std::string> basisu_oddities(std::span<const std::byte> bytes, bool color_data);
 
 // One named channel layer of an EXR besides the main picture: "albedo.R", "depth.Z", …
 struct ExrLayer {

@@ -9,7 +9,7 @@
 
 namespace candela {
 
-enum class ImageFormat : uint8_t { unknown, png, jpeg, webp, exr, hdr };
+enum class ImageFormat : uint8_t { unknown, png, jpeg, webp, ktx2, exr, hdr };
 ImageFormat sniff_format(std::span<const std::byte> bytes);
 
 // Throws when the size is 0 or over the limits.
@@ -18,6 +18,7 @@ void check_size(uint64_t width, uint64_t height, const DecodeLimits& limits);
 ImageRgba8 decode_png(std::span<const std::byte> bytes, const DecodeLimits& limits);
 ImageRgba8 decode_jpeg(std::span<const std::byte> bytes, const DecodeLimits& limits);
 ImageRgba8 decode_webp(std::span<const std::byte> bytes, const DecodeLimits& limits);
+ImageRgba8 decode_ktx2(std::span<const std::byte> bytes, const DecodeLimits& limits);
 ImageRgba32f decode_exr(std::span<const std::byte> bytes, const DecodeLimits& limits);
 ImageRgba32f decode_hdr(std::span<const std::byte> bytes, const DecodeLimits& limits);
 

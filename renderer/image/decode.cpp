@@ -20,6 +20,7 @@ ImageFormat sniff_format(std::span<const std::byte> bytes) {
     if (starts_with(bytes, "\x89PNG\r\n\x1a\n")) return ImageFormat::png;
     if (starts_with(bytes, "\xff\xd8\xff")) return ImageFormat::jpeg;
     if (starts_with(bytes, "RIFF") && starts_with(bytes, "WEBP", 8)) return ImageFormat::webp;
+    if (starts_with(bytes, "\xabKTX 20\xbb\r\n\x1a\n")) return ImageFormat::ktx2;
     if (starts_with(bytes, "\x76\x2f\x31\x01")) return ImageFormat::exr;
     if (starts_with(bytes, "#?")) return ImageFormat::hdr;
     return ImageFormat::unknown;
@@ -43,8 +44,10 @@ ImageRgba8 decode_ldr(std::span<const std::byte> bytes, const DecodeLimits& limi
             return decode_jpeg(bytes, limits);
         case ImageFormat::webp:
             return decode_webp(bytes, limits);
+        case ImageFormat::ktx2:
+            return decode_ktx2(bytes, limits);
         default:
-            throw ImageError("is no PNG, JPEG or WebP picture");
+            throw ImageError("is no PNG, JPEG, WebP or KTX2 picture");
     }
 }
 
@@ -66,7 +69,7 @@ ImageRgba32f read_any_as_linear(const std::filesystem::path& path, const DecodeL
     if (format == ImageFormat::exr) return decode_exr(bytes, limits);
     if (format == ImageFormat::hdr) return decode_hdr(bytes, limits);
     if (format == ImageFormat::unknown)
-        throw ImageError("is no picture in a format that candela reads (EXR, HDR, PNG, JPEG, WebP)");
+        throw ImageError("is no picture in a format that candela reads (EXR, HDR, PNG, JPEG, WebP, KTX2)");
     const ImageRgba8 stored = decode_ldr(bytes, limits);
     ImageRgba32f out(stored.width(), stored.height());
     float table[256];

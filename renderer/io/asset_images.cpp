@@ -1,27 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/io/asset_images.h"
 
+#include <utility>
+
 #include "renderer/io/materials.h"
 
 namespace candela {
-namespace {
-
-// Which images a picture depends on: occlusion is not among them, for a path tracer computes it.
-std::vector<uint32_t> images_in_use(const Scene& scene) {
-    std::vector<uint8_t> used(scene.images.size(), 0);
-    for (const Material& material : scene.materials) {
-        for (const TextureSlot& slot : texture_slots(material)) {
-            if (slot.ref != &material.occlusion) used[scene.textures[slot.ref->texture.value].image.value] = 1;
-        }
-    }
-    std::vector<uint32_t> list;
-    for (uint32_t i = 0; i < used.size(); ++i) {
-        if (used[i] != 0) list.push_back(i);
-    }
-    return list;
-}
-
-}  // namespace
 
 void AssetImages::list(Scene& scene) const {
     for (const ImageLayout& image : layout_.images) {
@@ -82,30 +66,70 @@ std::vector<ImageRgba8> AssetImages::decode_apart(const std::vector<uint32_t>& i
     return out;
 }
 
-void AssetImages::decode(Scene& scene) {
-    constexpr const char* white = "; white is used in its place";
-    const std::vector<uint32_t> in_use = images_in_use(scene);
+// What is known of an image: how materials use it, and what became of it.
+struct AssetImages::State {
+    bool color = false, data = false;  // used as sRGB colours, as plain numbers
+    bool replaceable = true;           // every texture that uses it has a fallback
+    bool tried = false, lost = false;
+};
+
+// Decodes the images in use that have not been tried yet. Occlusion is no use: a path tracer computes it.
+void AssetImages::decode_used(Scene& scene, std::vector<State>& states) {
+    for (const Material& material : scene.materials) {
+        for (const TextureSlot& slot : texture_slots(material)) {
+            if (slot.ref == &material.occlusion) continue;
+            const Texture& texture = scene.textures[slot.ref->texture.value];
+            State& state = states[texture.image.value];
+            (slot.color ? state.color : state.data) = true;
+            if (!texture.fallback.valid()) state.replaceable = false;
+        }
+    }
+    const auto consequence = [&](uint32_t image) {
+        return states[image].replaceable ? "; the texture's other image is used in its place"
+                                         : "; white is used in its place";
+    };
+    std::vector<uint32_t> in_use;
     std::vector<std::span<const std::byte>> sources;
-    for (const uint32_t image : in_use) {
+    for (uint32_t image = 0; image < states.size(); ++image) {
+        State& state = states[image];
+        if (state.tried || !(state.color || state.data)) continue;
         context_.check_cancel();
-        sources.push_back(encoded(image, white));
+        state.tried = true;
+        in_use.push_back(image);
+        sources.push_back(encoded(image, consequence(image)));
     }
 
     std::vector<DecodedImage> decoded = decode_all(sources);
 
-    std::vector<uint8_t> lost(scene.images.size(), 0);
     for (size_t i = 0; i < in_use.size(); ++i) {
         const uint32_t image = in_use[i];
+        State& state = states[image];
+        const std::string where = pointer_to("/images", image);
         if (decoded[i].error.empty() && !decoded[i].pixels.empty()) {
-            context_.charge(decoded[i].pixels.size(), sizeof(Rgba8), pointer_to("/images", image));
+            context_.charge(decoded[i].pixels.size(), sizeof(Rgba8), where);
             scene.images[image].pixels = std::make_shared<const ImageRgba8>(std::move(decoded[i].pixels));
+            if (state.color && state.data) continue;  // whatever it says of its colours, one use disagrees
+            for (const std::string& oddity : basisu_oddities(sources[i], state.color))
+                context_.warn(where, oddity);
             continue;
         }
-        lost[image] = 1;
-        if (!sources[i].empty()) {
-            context_.warn(pointer_to("/images", image), decoded[i].error + white);
-        }
+        state.lost = true;
+        if (!sources[i].empty()) context_.warn(where, decoded[i].error + consequence(image));
     }
+}
+
+void AssetImages::decode(Scene& scene) {
+    std::vector<State> states(scene.images.size());
+    decode_used(scene, states);
+    // A second round for textures that have another image.
+    bool replaced = false;
+    for (Texture& texture : scene.textures) {
+        if (!texture.image.valid() || !states[texture.image.value].lost || !texture.fallback.valid()) continue;
+        texture.image = std::exchange(texture.fallback, ImageId{});
+        replaced = true;
+    }
+    if (replaced) decode_used(scene, states);
+
     // Whatever has no pixels now reads as white; white as a normal map would tilt every normal.
     const auto white_texel = std::make_shared<const ImageRgba8>(1, 1, Rgba8(255));
     for (SceneImage& image : scene.images) {
@@ -113,11 +137,12 @@ void AssetImages::decode(Scene& scene) {
     }
     for (Material& material : scene.materials) {
         for (TextureRef* normal : {&material.normal, &material.clearcoat.normal}) {
-            if (normal->valid() && lost[scene.textures[normal->texture.value].image.value] != 0) *normal = TextureRef{};
+            if (normal->valid() && states[scene.textures[normal->texture.value].image.value].lost)
+                *normal = TextureRef{};
         }
         // White would turn and strengthen every highlight.
         if (TextureRef& direction = material.anisotropy.texture;
-            direction.valid() && lost[scene.textures[direction.texture.value].image.value] != 0) {
+            direction.valid() && states[scene.textures[direction.texture.value].image.value].lost) {
             direction = TextureRef{};
         }
     }

@@ -15,8 +15,8 @@ class AssetImages {
     // Names only; scene.images becomes as long as the file's.
     void list(Scene& scene) const;
 
-    // Decodes what the materials read. An image that is missing or damaged becomes one white texel with a warning, and
-    // as a normal texture is left out.
+    // Decodes what the materials read. Textures whose image is missing or damaged take their fallback; without one the
+    // image becomes one white texel with a warning, and as a normal texture is left out.
     void decode(Scene& scene);
 
     // Decodes pictures that are no textures. Empty with a warning where one is missing or damaged.
@@ -25,6 +25,8 @@ class AssetImages {
   private:
     // Empty with a warning where the bytes cannot be had. consequence: what becomes of it.
     std::span<const std::byte> encoded(size_t index, const char* consequence);
+    struct State;
+    void decode_used(Scene& scene, std::vector<State>& states);
     std::vector<DecodedImage> decode_all(std::span<const std::span<const std::byte>> sources);
 
     LoadContext& context_;

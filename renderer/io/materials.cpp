@@ -42,15 +42,23 @@ Texture MaterialLoader::texture(size_t index) const {
     const tinygltf::Texture& source = model_.textures[index];
     const std::string where = pointer_to("/textures", index);
     Texture out;
-    int image = source.source;
-    if (const tinygltf::Value* webp = find_extension(source.extensions, "EXT_texture_webp")) {
-        if (webp->Has("source")) image = webp->Get("source").GetNumberAsInt();
+    // Images of extensions come before the texture's own, which is there for readers that do not know them.
+    int images[3] = {-1, -1, source.source};
+    for (int i = 0; i < 2; ++i) {
+        const tinygltf::Value* extension =
+            find_extension(source.extensions, i == 0 ? "KHR_texture_basisu" : "EXT_texture_webp");
+        if (extension != nullptr && extension->Has("source")) images[i] = extension->Get("source").GetNumberAsInt();
     }
-    if (image >= 0) {
-        out.image = ImageId{static_cast<uint32_t>(image)};
-    } else {
-        context_.warn(where, "has no image that can be read; white is used");
+    for (const int image : images) {
+        if (image < 0) continue;
+        const ImageId id{static_cast<uint32_t>(image)};
+        if (!out.image.valid()) {
+            out.image = id;
+        } else if (id.value != out.image.value) {
+            out.fallback = id;
+        }
     }
+    if (!out.image.valid()) context_.warn(where, "has no image that can be read; white is used");
     if (source.sampler >= 0) {
         const auto sampler = static_cast<size_t>(source.sampler);
         const tinygltf::Sampler& from = model_.samplers[sampler];
@@ -119,25 +127,25 @@ void load_materials(LoadContext& context, const tinygltf::Model& model, Scene& s
 
 std::vector<TextureSlot> texture_slots(const Material& material) {
     const TextureSlot all[] = {
-        {&material.base_color, "base colour texture"},
+        {&material.base_color, "base colour texture", true},
         {&material.metallic_roughness, "metallic-roughness texture"},
         {&material.normal, "normal texture"},
         {&material.occlusion, "occlusion texture"},
-        {&material.emissive, "emissive texture"},
+        {&material.emissive, "emissive texture", true},
         {&material.specular.texture, "specular texture"},
-        {&material.specular.color, "specular colour texture"},
+        {&material.specular.color, "specular colour texture", true},
         {&material.clearcoat.texture, "clearcoat texture"},
         {&material.clearcoat.roughness, "clearcoat roughness texture"},
         {&material.clearcoat.normal, "clearcoat normal texture"},
-        {&material.sheen.color, "sheen colour texture"},
+        {&material.sheen.color, "sheen colour texture", true},
         {&material.sheen.roughness, "sheen roughness texture"},
         {&material.iridescence.texture, "iridescence texture"},
         {&material.iridescence.thickness, "iridescence thickness texture"},
         {&material.anisotropy.texture, "anisotropy texture"},
         {&material.transmission.texture, "transmission texture"},
         {&material.diffuse_transmission.texture, "diffuse transmission texture"},
-        {&material.diffuse_transmission.color, "diffuse transmission colour texture"},
-        {&material.specular_glossiness_texture, "specular-glossiness texture"},
+        {&material.diffuse_transmission.color, "diffuse transmission colour texture", true},
+        {&material.specular_glossiness_texture, "specular-glossiness texture", true},
     };
     std::vector<TextureSlot> used;
     std::copy_if(std::begin(all), std::end(all), std::back_inserter(used),

@@ -21,6 +21,7 @@ void load_materials(LoadContext& context, const tinygltf::Model& model, Scene& s
 struct TextureSlot {
     const TextureRef* ref;
     const char* name;
+    bool color = false;  // sRGB colours; false: plain numbers
 };
 std::vector<TextureSlot> texture_slots(const Material& material);
 

@@ -97,6 +97,8 @@ constexpr Rule rules[] = {
     {"textures/*/extensions", Kind::object},
     {"textures/*/extensions/EXT_texture_webp", Kind::object},
     {"textures/*/extensions/EXT_texture_webp/source", Kind::index, "images"},
+    {"textures/*/extensions/KHR_texture_basisu", Kind::object},
+    {"textures/*/extensions/KHR_texture_basisu/source", Kind::index, "images"},
 
     {"materials", Kind::array},
     {"materials/*", Kind::object},

@@ -70,6 +70,7 @@ enum class TextureFilter : uint8_t { linear, nearest };
 
 struct Texture {
     ImageId image;
+    ImageId fallback;  // shown where image cannot be decoded; invalid: none
     WrapMode wrap_u = WrapMode::repeat;
     WrapMode wrap_v = WrapMode::repeat;
     TextureFilter filter = TextureFilter::linear;

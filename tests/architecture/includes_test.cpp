@@ -15,8 +15,8 @@ const std::map<std::string, int> rank = {{"math", 0},  {"sampling", 1},   {"imag
 // Which room may include a foreign header, by a part of its name.
 const std::vector<std::pair<std::string, std::string>> owners = {
     {"embree", "accel"},  {"tiny_gltf", "io"}, {"meshopt", "io"}, {"png.h", "image"},
-    {"jpeglib", "image"}, {"webp/", "image"},  {"Imf", "image"},  {"GLFW", "-"},
-    {"osmesa", "-"},      {"GL/", "-"},        {"imgui", "-"}};
+    {"jpeglib", "image"}, {"webp/", "image"},  {"zstd", "image"}, {"Imf", "image"},
+    {"GLFW", "-"},        {"osmesa", "-"},     {"GL/", "-"},      {"imgui", "-"}};
 
 struct Line {
     std::string file, room, included;

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/image/uastc.h"
+
+#include "renderer/image/byte_order.h"
+#include "renderer/image/codec.h"
+#include "renderer/image/uastc_tables.h"
+
+namespace candela {
+
+namespace {
+
+using namespace uastc;
+
+// The 128 bits of a block, taken from the lowest upwards.
+class BlockBits {
+  public:
+    explicit BlockBits(std::span<const std::byte> block) : low_(read_u64(block, 0)), high_(read_u64(block, 8)) {}
+    unsigned take(unsigned count) {  // 0 ≤ count ≤ 32
+        const auto bits = static_cast<unsigned>(low_ & ((uint64_t{1} << count) - 1));
+        low_ = low_ >> count | (high_ << (63 - count) << 1);
+        high_ >>= count;
+        return bits;
+    }
+
+  private:
+    uint64_t low_, high_;
+};
+
+const Pattern& take_pattern(BlockBits& bits, const Mode& mode) {
+    const auto choose = [&](std::span<const Pattern> patterns, unsigned count_bits) -> const Pattern& {
+        const unsigned index = bits.take(count_bits);
+        if (index >= patterns.size()) throw ImageError("broken KTX2: a UASTC block has a reserved partition");
+        return patterns[index];
+    };
+    switch (mode.patterns) {
+        case Patterns::two:
+            return choose(patterns_of_two, 5);
+        case Patterns::three:
+            return choose(patterns_of_three, 4);
+        case Patterns::two_of_three:
+            return choose(patterns_of_two_of_three, 5);
+        default:
+            return patterns_of_one[0];
+    }
+}
+
+unsigned subset_count(Patterns patterns) {
+    return patterns == Patterns::one ? 1 : patterns == Patterns::three ? 3 : 2;
+}
+
+// Packed digits, five trits or three quints at a time, come before the plain bits of all values.
+void take_endpoints(BlockBits& bits, unsigned mode_index, unsigned count, uint8_t* out) {
+    const Mode& mode = modes[mode_index];
+    unsigned digits[18] = {};
+    if (mode.radix != 1) {
+        constexpr uint8_t trit_bits[] = {0, 2, 4, 5, 7, 8}, quint_bits[] = {0, 3, 5, 7};
+        const unsigned group = mode.radix == 3 ? 5 : 3;
+        for (unsigned first = 0; first < count; first += group) {
+            const unsigned here = std::min(group, count - first);
+            unsigned packed = bits.take(mode.radix == 3 ? trit_bits[here] : quint_bits[here]);
+            for (unsigned k = 0; k < here; ++k, packed /= mode.radix)
+                digits[first + k] = packed % mode.radix;
+        }
+    }
+    for (unsigned i = 0; i < count; ++i)
+        out[i] = endpoint_values[mode_index][digits[i] << mode.bits | bits.take(mode.bits)];
+}
+
+// Both ends of a channel widened to 16 bits ("Weight Application").
+struct Ends {
+    uint32_t low = 0xffff, high = 0xffff;
+    uint8_t at(uint32_t weight) const { return static_cast<uint8_t>((low * (64 - weight) + high * weight + 32) >> 14); }
+};
+
+// The channels R, G, B, A of a subset from its endpoint values; luminance stands for all three colours.
+std::array<Ends, 4> channels_of(const uint8_t* values, unsigned components) {
+    std::array<Ends, 4> out;
+    const auto ends = [&](unsigned component) {
+        return Ends{values[2 * component] * 257u, values[2 * component + 1] * 257u};
+    };
+    if (components == 2) return {ends(0), ends(0), ends(0), ends(1)};
+    for (unsigned c = 0; c < components; ++c)
+        out[c] = ends(c);
+    return out;
+}
+
+}  // namespace
+
+void decode_uastc_block(std::span<const std::byte, uastc_block_bytes> block, std::span<Rgba8, 16> texels) {
+    BlockBits bits(block);
+    const unsigned mode_index = mode_of_bits[static_cast<unsigned>(block[0]) & 127u];
+    if (mode_index >= mode_count) throw ImageError("broken KTX2: a UASTC block has the reserved mode");
+    const Mode& mode = modes[mode_index];
+    bits.take(mode.code_bits);
+    if (mode_index == solid_mode) {
+        Rgba8 color;
+        for (int c = 0; c < 4; ++c)
+            color[c] = static_cast<uint8_t>(bits.take(8));
+        std::fill(texels.begin(), texels.end(), color);
+        return;
+    }
+
+    // The fields in their order: hints, which channel the second plane's weights are for, partition, endpoints.
+    bits.take(mode.hint_bits);
+    unsigned second_plane_channel = 3;
+    if (mode.planes == 2 && mode.components != 2) second_plane_channel = bits.take(2);
+    const Pattern& pattern = take_pattern(bits, mode);
+    const unsigned subsets = subset_count(mode.patterns);
+    uint8_t endpoints[18];
+    take_endpoints(bits, mode_index, 2u * mode.components * subsets, endpoints);
+    std::array<Ends, 4> channels[3];
+    for (unsigned s = 0; s < subsets; ++s)
+        channels[s] = channels_of(endpoints + 2u * mode.components * s, mode.components);
+
+    // One weight a texel and plane, raster order; that of a subset's first texel lacks its highest bit, which is zero.
+    const auto& weights = weight_values[mode.weight_bits];
+    for (size_t i = 0; i < 16; ++i) {
+        const unsigned stored_bits = mode.weight_bits - (pattern.anchor[i] ? 1u : 0u);
+        const std::array<Ends, 4>& ends = channels[pattern.subset[i]];
+        const uint32_t weight = weights[bits.take(stored_bits)];
+        Rgba8& texel = texels[i];
+        texel = {ends[0].at(weight), ends[1].at(weight), ends[2].at(weight), ends[3].at(weight)};
+        if (mode.planes == 2) {
+            const uint32_t second = weights[bits.take(stored_bits)];
+            texel[static_cast<int>(second_plane_channel)] = ends[second_plane_channel].at(second);
+        }
+    }
+}
+
+ImageRgba8 decode_uastc(std::span<const std::byte> blocks, int width, int height) {
+    ImageRgba8 out(width, height);
+    std::array<Rgba8, 16> texels;
+    for (int top = 0; top < height; top += 4) {
+        for (int left = 0; left < width; left += 4) {
+            decode_uastc_block(blocks.first<uastc_block_bytes>(), texels);
+            blocks = blocks.subspan(uastc_block_bytes);
+            const int rows = std::min(4, height - top), columns = std::min(4, width - left);
+            for (int row = 0; row < rows; ++row)
+                std::copy_n(texels.begin() + 4 * row, columns, &out(left, top + row));
+        }
+    }
+    return out;
+}
+
+}  // namespace candela
