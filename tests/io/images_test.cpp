@@ -44,7 +44,7 @@ class Images : public GltfTest {
         options_.decode_images = true;
     }
     // A material whose base colour is texture 0.
-    static Document textured(const Json& texture, const Json& images) {
+    static Document textured(const Json& texture, const std::vector<Json>& images) {
         Document document = Document::triangle();
         const int uv = document.add_accessor<float>({0, 0, 1, 0, 0, 1}, "VEC2", f32);
         Json& primitive = document.json["meshes"][0]["primitives"][0];
