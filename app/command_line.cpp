@@ -39,7 +39,7 @@ Vec3 parse_vec3(const std::string& option, const std::string& text) {
 
 // Options as text, turned into values once CLI11 has read them.
 struct RawRenderOptions {
-    std::string resolution, eye, target, up, sky, background, aov, variant, animation;
+    std::string resolution, eye, target, up, sky, background, aov, animation;
     double at_seconds = 0;
 };
 
@@ -116,7 +116,7 @@ void add_render_options(CLI::App& command, RenderOptions& options, RawRenderOpti
     command.add_option("--tonemap", options.tone.curve, "linear, neutral, aces or agx (neutral)")
         ->transform(CLI::CheckedTransformer(curves));
     command.add_option("--scene", options.scene_index, "which scene of the file")->type_name("N");
-    command.add_option("--variant", raw.variant, "which material variant")->type_name("NAME");
+    command.add_option("--variant", options.variant, "which material variant of the file")->type_name("NAME");
     command.add_option("--animation", raw.animation, "which animation")->type_name("NAME|INDEX");
     command.add_option("--at", raw.at_seconds, "at which time of the animation")->type_name("SECONDS");
     command
@@ -129,7 +129,6 @@ void add_render_options(CLI::App& command, RenderOptions& options, RawRenderOpti
 }
 
 void finish_render_options(const RawRenderOptions& raw, RenderOptions& options) {
-    if (!raw.variant.empty()) throw usage("--variant: material variants are not supported yet; leave the option out");
     if (!raw.animation.empty() || raw.at_seconds != 0) {
         throw usage("--animation: animations are not supported yet; leave --animation and --at out");
     }
@@ -191,7 +190,10 @@ ExitStatus dispatch(int argc, char** argv) {
     InfoOptions info;
     CLI::App* info_command = app.add_subcommand("info", "what the file holds and how each extension is treated");
     info_command->add_option("scene", info.scene, "a .gltf or .glb file")->required()->type_name("SCENE");
+    info_command->add_option("--scene", info.scene_index, "which scene of the file")->type_name("N");
+    info_command->add_option("--variant", info.variant, "which material variant of the file")->type_name("NAME");
     info_command->add_flag("--json", info.json, "as JSON");
+    info_command->add_flag("-v", info.verbose, "the whole tree, however long");
 
     CompareOptions compare;
     CLI::App* compare_command = app.add_subcommand("compare", "how far two pictures differ");

@@ -34,6 +34,7 @@ struct RenderOptions {
     std::optional<Vec3> sky;
     ToneSettings tone;
     std::optional<uint32_t> scene_index;
+    std::string variant;  // empty: each primitive's own material
     std::vector<std::string> aovs;
     std::string stats_file;  // "-": standard output
     std::string output;
@@ -43,7 +44,10 @@ struct RenderOptions {
 
 struct InfoOptions {
     std::string scene;
+    std::optional<uint32_t> scene_index;
+    std::string variant;
     bool json = false;
+    bool verbose = false;
 };
 
 struct CompareOptions {

@@ -37,7 +37,8 @@ bool has_light(const Scene& scene) {
     if (!scene.light_instances.empty()) return true;
     for (const Instance& instance : scene.instances) {
         for (const Primitive& primitive : scene.mesh(instance.mesh).primitives) {
-            if (primitive.material.valid() && scene.materials[primitive.material.value].emits()) return true;
+            const MaterialId material = material_of(scene, primitive);
+            if (material.valid() && scene.materials[material.value].emits()) return true;
         }
     }
     return false;
@@ -107,6 +108,23 @@ Vec2u choose_extent(const RenderOptions& options, const Camera& camera) {
     return {static_cast<uint32_t>(std::clamp(std::lround(aspect * height), 1l, 8192l)), height};
 }
 
+void build_job_world(RenderJob& job, const std::shared_ptr<const Scene>& scene, const RenderOptions& options,
+                     const std::atomic<bool>* cancel) {
+    const Clock::time_point build_start = Clock::now();
+    BuildOptions build;
+    build.environment = place_environment(job.environment.get(), options);
+    build.cancel = cancel;
+    try {
+        job.world = build_world(scene, build);
+    } catch (const AccelError& error) {
+        const bool stopped = cancel != nullptr && cancel->load();
+        throw CommandError(stopped ? ExitStatus::interrupted : ExitStatus::internal_error,
+                           fmt::format("{}: {}", job.scene_path, error.what()));
+    }
+    job.warnings.insert(job.warnings.end(), job.world->warnings.begin(), job.world->warnings.end());
+    job.build_seconds = seconds_since(build_start);
+}
+
 }  // namespace
 
 std::shared_ptr<const Environment> read_environment(const RenderOptions& options) {
@@ -150,6 +168,14 @@ std::filesystem::path default_scene() {
     return assets_folder() / "cornell_box.glb";
 }
 
+void show_variant(RenderJob& job, const RenderOptions& options, std::optional<uint32_t> variant,
+                  const std::atomic<bool>* cancel) {
+    auto scene = std::make_shared<Scene>(*job.world->scene);
+    scene->active_variant = variant;
+    build_job_world(job, scene, options, cancel);
+    job.request.world = job.world;
+}
+
 RenderJob prepare_render(const RenderOptions& options, const std::function<void(const char*, double)>& progress,
                          const std::atomic<bool>* cancel) {
     RenderJob job;
@@ -160,11 +186,14 @@ RenderJob prepare_render(const RenderOptions& options, const std::function<void(
     Diagnostics diagnostics;
     LoadOptions load;
     load.scene = options.scene_index;
+    load.variant = options.variant;
     load.cancel = cancel;
     load.progress = [&](float fraction, const char*) { progress("load", static_cast<double>(fraction)); };
     std::shared_ptr<const Scene> scene;
     try {
         scene = std::make_shared<const Scene>(load_gltf(job.scene_path, diagnostics, load));
+    } catch (const ChoiceError& error) {
+        throw CommandError(ExitStatus::wrong_usage, error.what());
     } catch (const LoadError& error) {
         const bool stopped = cancel != nullptr && cancel->load();
         throw CommandError(stopped ? ExitStatus::interrupted : ExitStatus::unreadable_scene, error.what());
@@ -174,21 +203,8 @@ RenderJob prepare_render(const RenderOptions& options, const std::function<void(
     }
     job.load_seconds = seconds_since(load_start);
 
-    // Build.
-    const Clock::time_point build_start = Clock::now();
-    BuildOptions build;
     job.environment = choose_environment(options, *scene, job.warnings);
-    build.environment = place_environment(job.environment.get(), options);
-    build.cancel = cancel;
-    try {
-        job.world = build_world(scene, build);
-    } catch (const AccelError& error) {
-        const bool stopped = cancel != nullptr && cancel->load();
-        throw CommandError(stopped ? ExitStatus::interrupted : ExitStatus::internal_error,
-                           fmt::format("{}: {}", job.scene_path, error.what()));
-    }
-    job.warnings.insert(job.warnings.end(), job.world->warnings.begin(), job.world->warnings.end());
-    job.build_seconds = seconds_since(build_start);
+    build_job_world(job, scene, options, cancel);
     progress("build", 1.0);
 
     // What to render, and how long.

@@ -99,6 +99,10 @@ void print_text(const OrderedJson& facts, const Scene& scene) {
     fmt::print("  {:<12} {} ({} as placed)\n", "triangles", facts["triangles"].get<uint64_t>(),
                facts["placed_triangles"].get<uint64_t>());
     fmt::print("  {:<12} {:.1f} MB\n", "vertex data", facts["vertex_bytes"].get<double>() * 1e-6);
+    if (scene.strokes.width_m > 0) {
+        fmt::print("  {:<12} {} points and {} segments of lines, drawn {:.3g} m thick\n", "strokes",
+                   scene.strokes.points, scene.strokes.segments, scene.strokes.width_m);
+    }
     const Bounds3 bounds = bounds_of(scene);
     if (!bounds.empty()) {
         fmt::print("  {:<12} {:.4g},{:.4g},{:.4g} to {:.4g},{:.4g},{:.4g} m\n", "bounds", bounds.lower.x,
@@ -126,6 +130,8 @@ ExitStatus run_info(const InfoOptions& options) {
     Diagnostics diagnostics;
     LoadOptions load;
     load.decode_images = false;
+    load.scene = options.scene_index;
+    load.variant = options.variant;
     try {
         const Scene scene = load_gltf(options.scene, diagnostics, load);
         const OrderedJson facts = describe(scene, diagnostics);
@@ -134,6 +140,8 @@ ExitStatus run_info(const InfoOptions& options) {
         } else {
             print_text(facts, scene);
         }
+    } catch (const ChoiceError& error) {
+        throw CommandError(ExitStatus::wrong_usage, error.what());
     } catch (const LoadError& error) {
         throw CommandError(ExitStatus::unreadable_scene, error.what());
     }

@@ -111,6 +111,15 @@ void scene_section(const ViewerModel& model, PanelEdits& edits) {
             choose_named("scene", now.empty() ? fmt::format("number {}", scene.active_scene).c_str() : now.c_str(),
                          scene.scene_names);
     }
+    if (!scene.variant_names.empty()) {
+        constexpr const char* own = "the file's own";
+        std::vector<std::string> names{own};
+        names.insert(names.end(), scene.variant_names.begin(), scene.variant_names.end());
+        const std::string& now = scene.active_variant ? scene.variant_names[*scene.active_variant] : names[0];
+        if (const std::optional<uint32_t> chosen = choose_named("variant", now.c_str(), names)) {
+            edits.variant = *chosen == 0 ? std::optional<uint32_t>() : std::optional<uint32_t>(*chosen - 1);
+        }
+    }
     constexpr const char* treatments[] = {"rendered", "approximated", "ignored", "refused"};
     for (const ExtensionUse& use : scene.extensions) {
         ImGui::TextWrapped("%s", use.name.c_str());

@@ -61,6 +61,7 @@ RenderOptions Viewer::options_for(const std::string& path) const {
     options.eye = options.target = options.up = std::nullopt;
     options.projection.reset();
     options.scene_index.reset();
+    options.variant.clear();
     return options;
 }
 
@@ -110,6 +111,25 @@ void Viewer::start_environment_change() {
         out.job.world = with_environment(job.world, out.job.environment, options);
         return out;
     });
+}
+
+// The scene stays in memory: only which material each primitive has changes.
+void Viewer::start_variant_change(std::optional<uint32_t> variant) {
+    RenderOptions options = model_.options;
+    const Scene& scene = *model_.job.world->scene;
+    options.variant = variant ? scene.variant_names[*variant] : std::string();
+    load_keeps_view_ = true;
+    load_is_environment_ = false;
+    environment_dirty_ = false;
+    model_.loading = true;
+    model_.loading_name = variant ? options.variant : "the file's own materials";
+    loader_.start(
+        [options, variant, job = model_.job](const SceneLoader::Progress& progress, const std::atomic<bool>* cancel) {
+            LoadedScene out{options, job};
+            progress("variant", 0);
+            show_variant(out.job, options, variant, cancel);
+            return out;
+        });
 }
 
 void Viewer::take_loaded() {
@@ -243,6 +263,7 @@ void Viewer::apply(const PanelEdits& edits) {
         options.scene_index = edits.scene;
         start_load(options, false);
     }
+    if (edits.variant) start_variant_change(*edits.variant);
     if (edits.validation_scene) open_validation_scene(*edits.validation_scene);
     if (edits.view || edits.settings || edits.environment || edits.tone || edits.toggle_pause) redraws_ = 2;
 }

@@ -56,6 +56,7 @@ class Viewer {
     RenderOptions options_for(const std::string& path) const;
     void start_load(RenderOptions options, bool keep_view);
     void start_environment_change();
+    void start_variant_change(std::optional<uint32_t> variant);
     void take_loaded();
     void submit();
     void take_frame();

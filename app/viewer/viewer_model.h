@@ -46,9 +46,10 @@ struct PanelEdits {
     bool tone = false;         // only drawn anew
     bool toggle_pause = false;
     bool frame_all = false;
-    std::optional<uint32_t> camera;          // of the file
-    std::optional<uint32_t> scene;           // of the file
-    std::optional<size_t> validation_scene;  // in validation_scenes()
+    std::optional<uint32_t> camera;                  // of the file
+    std::optional<uint32_t> scene;                   // of the file
+    std::optional<std::optional<uint32_t>> variant;  // of the file; none inside: each primitive's own material
+    std::optional<size_t> validation_scene;          // in validation_scenes()
 };
 
 // "HotelRoom.glb"; with its folder where the name alone says nothing, as in "HotelRoom/scene.glb".

@@ -101,6 +101,14 @@ void widen(const std::byte* from, uint64_t stride, uint64_t count, uint32_t* out
 
 }  // namespace
 
+AccessorReader::Source AccessorReader::source_of(uint32_t index) {
+    const AccessorLayout& accessor = layout(index);
+    const auto replaced = replaced_.find(index);
+    if (replaced != replaced_.end()) return {replaced->second.data(), packed_bytes(accessor)};
+    if (!accessor.view) return {};
+    return {buffers_.view(*accessor.view).data() + accessor.byte_offset, accessor.stride};
+}
+
 std::vector<uint64_t> AccessorReader::read_sparse_positions(uint32_t index) {
     const AccessorLayout& accessor = layout(index);
     const SparseLayout& sparse = *accessor.sparse;
@@ -133,9 +141,8 @@ std::vector<Element> AccessorReader::read_floats(uint32_t index, uint32_t rows, 
     context_.charge(accessor.count, sizeof(Element), pointer_to("/accessors", index, "count"));
     std::vector<Element> elements(accessor.count, Element(0.0f));
     auto* out = reinterpret_cast<float*>(elements.data());
-    if (accessor.view) {
-        const std::byte* from = buffers_.view(*accessor.view).data() + accessor.byte_offset;
-        convert_elements(accessor, normalized, from, accessor.stride, accessor.count, out);
+    if (const Source source = source_of(index); source.first != nullptr) {
+        convert_elements(accessor, normalized, source.first, source.stride, accessor.count, out);
     }
     if (accessor.sparse) {
         const std::vector<uint64_t> positions = read_sparse_positions(index);
@@ -186,17 +193,16 @@ std::vector<uint32_t> AccessorReader::read_indices(uint32_t index, const std::st
     }
     context_.charge(accessor.count, sizeof(uint32_t), pointer_to("/accessors", index, "count"));
     std::vector<uint32_t> indices(accessor.count, 0);
-    if (accessor.view) {
-        const std::byte* from = buffers_.view(*accessor.view).data() + accessor.byte_offset;
+    if (const Source source = source_of(index); source.first != nullptr) {
         switch (accessor.type) {
             case ComponentType::u8:
-                widen<uint8_t>(from, accessor.stride, accessor.count, indices.data());
+                widen<uint8_t>(source.first, source.stride, accessor.count, indices.data());
                 break;
             case ComponentType::u16:
-                widen<uint16_t>(from, accessor.stride, accessor.count, indices.data());
+                widen<uint16_t>(source.first, source.stride, accessor.count, indices.data());
                 break;
             default:
-                widen<uint32_t>(from, accessor.stride, accessor.count, indices.data());
+                widen<uint32_t>(source.first, source.stride, accessor.count, indices.data());
                 break;
         }
     }

@@ -2,6 +2,7 @@
 // Typed arrays out of accessors: every component type, normalised or not, strided, sparse, or absent (zeros).
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "renderer/io/buffers.h"
@@ -15,6 +16,14 @@ class AccessorReader {
         : context_(context), layout_(layout), buffers_(buffers) {}
 
     const AccessorLayout& layout(uint32_t accessor) const { return layout_.accessors[accessor]; }
+    const Layout& layout() const { return layout_; }
+
+    // Elements that stand in for an accessor's own until clear_replacements: packed, of the accessor's type and count.
+    // So what a compressed primitive holds reads like any other accessor.
+    void replace(uint32_t accessor, std::vector<std::byte> elements) { replaced_[accessor] = std::move(elements); }
+    void clear_replacements() { replaced_.clear(); }
+    // The bytes of a buffer view, decompressed.
+    std::span<const std::byte> view(uint32_t view) { return buffers_.view(view); }
 
     // Elements as floats, with normalized integers mapped to [0,1] or [-1,1] as glTF has it (section 3.6.2.2). The
     // memory is booked with the context. where names the use for the error when the accessor's type is another.
@@ -33,10 +42,17 @@ class AccessorReader {
     std::vector<Element> read_floats(uint32_t accessor, uint32_t rows, uint32_t columns, const char* type,
                                      const std::string& where, bool always_normalized = false);
     std::vector<uint64_t> read_sparse_positions(uint32_t accessor);
+    // Where the elements lie before sparse ones replace some; first is null where all are zero.
+    struct Source {
+        const std::byte* first = nullptr;
+        uint64_t stride = 0;
+    };
+    Source source_of(uint32_t accessor);
 
     LoadContext& context_;
     const Layout& layout_;
     BufferStore& buffers_;
+    std::map<uint32_t, std::vector<std::byte>> replaced_;
 };
 
 }  // namespace candela

@@ -53,4 +53,10 @@ class LoadError : public std::runtime_error {
     std::string path_, where_, reason_;
 };
 
+// The file is well, but has not what the caller asked of it: a scene, a variant.
+class ChoiceError : public LoadError {
+  public:
+    using LoadError::LoadError;
+};
+
 }  // namespace candela

@@ -9,6 +9,10 @@ void LoadContext::fail(std::string where, std::string reason) const {
     throw LoadError(path_, std::move(where), std::move(reason));
 }
 
+void LoadContext::fail_choice(std::string where, std::string reason) const {
+    throw ChoiceError(path_, std::move(where), std::move(reason));
+}
+
 void LoadContext::charge(uint64_t bytes, const std::string& where) {
     if (bytes > bytes_left()) {
         fail(where, "needs " + std::to_string(bytes) + " bytes, more than the memory limit of " +

@@ -20,6 +20,8 @@ class LoadContext {
 
     // where is a JSON pointer into the document as the file has it, or empty.
     [[noreturn]] void fail(std::string where, std::string reason) const;
+    // What the caller chose is not in the file.
+    [[noreturn]] void fail_choice(std::string where, std::string reason) const;
     void warn(std::string where, std::string message) { diagnostics_.warn(std::move(where), std::move(message)); }
 
     // Books memory before it is allocated; throws LoadError where the limit would be passed.

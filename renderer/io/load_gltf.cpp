@@ -9,12 +9,15 @@
 #include "renderer/io/extensions.h"
 #include "renderer/io/glb_container.h"
 #include "renderer/io/image_based_light.h"
+#include "renderer/io/instancing.h"
 #include "renderer/io/materials.h"
 #include "renderer/io/meshes.h"
 #include "renderer/io/nodes.h"
 #include "renderer/io/schema.h"
+#include "renderer/io/strokes.h"
 #include "renderer/io/structure.h"
 #include "renderer/io/tinygltf.h"
+#include "renderer/io/variants.h"
 #include "renderer/scene/animation.h"
 #include "renderer/scene/pose.h"
 
@@ -96,10 +99,14 @@ Scene load(LoadContext& context, const std::filesystem::path& path) {
     context.progress(0.1f, "meshes");
     images.list(scene);
     load_materials(context, model, scene);
+    load_variants(context, document, scene);
     load_nodes(context, model, scene);
+    load_instancing(context, model, accessors, scene);
     load_lights(context, model, scene);
     load_cameras(context, model, scene);
     std::vector<Mesh> meshes = load_meshes(context, model, accessors, scene);
+    give_strokes_bodies(context, scene, meshes);
+
     context.progress(0.3f, "tangents");
     generate_missing_tangents(context, scene, meshes);
     for (Mesh& mesh : meshes)

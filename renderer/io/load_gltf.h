@@ -14,6 +14,7 @@ namespace candela {
 
 struct LoadOptions {
     std::optional<uint32_t> scene;  // index; default: the file's scene, else the first
+    std::string variant;            // name; empty: each primitive's own material
     bool decode_images = true;      // false for `info`
     uint64_t max_memory_bytes = uint64_t{16} << 30;
     // Called with 0..1 and a word for the step ("reading", "images", "tangents"), from the loading thread only.
@@ -21,7 +22,7 @@ struct LoadOptions {
     const std::atomic<bool>* cancel = nullptr;  // set: the load ends soon with LoadError "cancelled"
 };
 
-// Throws LoadError.
+// Throws LoadError, ChoiceError where options name a scene or a variant that the file has not.
 Scene load_gltf(const std::filesystem::path& path, Diagnostics& diagnostics, const LoadOptions& options = {});
 
 }  // namespace candela

@@ -1,20 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/io/meshes.h"
 
+#include "renderer/io/draco_primitive.h"
 #include "renderer/io/materials.h"
 #include "renderer/io/repair.h"
 #include "renderer/io/tangents.h"
 #include "renderer/io/tinygltf.h"
 #include "renderer/io/topology.h"
+#include "renderer/io/variants.h"
 
 namespace candela {
 namespace {
 
 class PrimitiveLoader {
   public:
-    PrimitiveLoader(LoadContext& context, AccessorReader& accessors, const Scene& scene,
+    PrimitiveLoader(LoadContext& context, AccessorReader& accessors, DracoPrimitives& draco, const Scene& scene,
                     const tinygltf::Primitive& source, std::string where)
-        : context_(context), accessors_(accessors), scene_(scene), source_(source), where_(std::move(where)) {}
+        : context_(context),
+          accessors_(accessors),
+          draco_(draco),
+          scene_(scene),
+          source_(source),
+          where_(std::move(where)) {}
 
     // Empty where there is nothing to show.
     std::optional<Primitive> load();
@@ -26,19 +33,45 @@ class PrimitiveLoader {
     void load_attributes(Primitive& out, bool wants_tangents);
     template <typename Element>
     std::vector<Element> same_length(std::vector<Element> values, size_t vertex_count, const char* name) const;
+    void load_materials(Primitive& out);
+    bool wants_tangents(const Primitive& primitive) const;
     void repair(Primitive& out);
     void check_uv_sets(const Primitive& primitive);
 
     LoadContext& context_;
     AccessorReader& accessors_;
+    DracoPrimitives& draco_;
     const Scene& scene_;
     const tinygltf::Primitive& source_;
     std::string where_;
 };
 
-uint64_t bytes_of(const Primitive& p) {
-    return p.positions.size() * sizeof(Vec3) + p.normals.size() * sizeof(Vec3) + p.tangents.size() * sizeof(Vec4) +
-           (p.uv[0].size() + p.uv[1].size()) * sizeof(Vec2) + p.colors.size() * sizeof(Vec4);
+// The primitive's own material and those of its variants, as far as it has any.
+template <typename Action>
+void for_each_material(const Primitive& primitive, const Action& action) {
+    if (primitive.material.valid()) action(primitive.material);
+    for (const VariantMaterial& each : primitive.variants) {
+        if (each.material.valid()) action(each.material);
+    }
+}
+
+// Tangents run along one set of coordinates: the first that a material of the primitive asks for.
+std::optional<uint32_t> tangent_uv_set_of(const Scene& scene, const Primitive& primitive) {
+    std::optional<uint32_t> out;
+    for_each_material(primitive, [&](MaterialId id) {
+        if (!out) out = tangent_uv_set(scene.materials[id.value]);
+    });
+    return out;
+}
+
+bool is_required(const Scene& scene, std::string_view extension) {
+    return std::any_of(scene.extensions.begin(), scene.extensions.end(),
+                       [&](const ExtensionUse& use) { return use.required && use.name == extension; });
+}
+
+// The largest value of the type (glTF 2.0, section 3.7.2.1).
+uint32_t restart_value(ComponentType type) {
+    return type == ComponentType::u8 ? 0xffu : type == ComponentType::u16 ? 0xffffu : 0xffffffffu;
 }
 
 std::optional<uint32_t> PrimitiveLoader::attribute(const char* name) const {
@@ -55,7 +88,13 @@ std::vector<Vec3u> PrimitiveLoader::load_triangles(PrimitiveMode mode, uint64_t 
         corners = accessors_.read_indices(static_cast<uint32_t>(source_.indices), indices_place);
         corner_count = corners.size();
         // Any vertex index that passes here may be used unchecked from now on.
+        const uint32_t restart = restart_value(accessors_.layout(static_cast<uint32_t>(source_.indices)).type);
         for (size_t i = 0; i < corners.size(); ++i) {
+            if (corners[i] == restart) {
+                context_.fail(indices_place, "holds the primitive restart value " + std::to_string(restart) +
+                                                 " at element " + std::to_string(i) +
+                                                 ", which glTF forbids; export the strips as primitives of their own");
+            }
             if (corners[i] < vertex_count) continue;
             context_.fail(indices_place, "vertex index " + std::to_string(corners[i]) + " at element " +
                                              std::to_string(i) + " is not below the " + std::to_string(vertex_count) +
@@ -63,8 +102,10 @@ std::vector<Vec3u> PrimitiveLoader::load_triangles(PrimitiveMode mode, uint64_t 
         }
     }
     const uint64_t count = triangle_count(mode, corner_count);
-    if (mode == PrimitiveMode::triangles && corner_count % 3 != 0) {
-        context_.warn(where_, "the number of corners is not a multiple of 3; the last are ignored");
+    const uint64_t corners_each = mode == PrimitiveMode::triangles ? 3 : mode == PrimitiveMode::lines ? 2 : 1;
+    if (corner_count % corners_each != 0) {
+        context_.warn(where_, "the number of corners is not a multiple of " + std::to_string(corners_each) +
+                                  "; the last are ignored");
     }
     context_.charge(count, sizeof(Vec3u), where_);
     std::vector<Vec3u> triangles = source_.indices >= 0 ? assemble_triangles(mode, corners)
@@ -85,7 +126,9 @@ std::vector<Element> PrimitiveLoader::same_length(std::vector<Element> values, s
 
 void PrimitiveLoader::load_attributes(Primitive& out, bool wants_tangents) {
     const size_t count = out.positions.size();
-    if (const auto normals = attribute("NORMAL")) {
+    // Points and lines get the normals of their bodies.
+    const auto normals = out.shape == PrimitiveShape::surface ? attribute("NORMAL") : std::nullopt;
+    if (normals) {
         out.normals = same_length(accessors_.read_vec3(*normals, attribute_place("NORMAL")), count, "NORMAL");
         // Without normals of its own a mesh gets flat ones, and its tangents are to be ignored (section 3.7.2.1).
         const auto tangents = attribute("TANGENT");
@@ -105,12 +148,13 @@ void PrimitiveLoader::load_attributes(Primitive& out, bool wants_tangents) {
 
 void PrimitiveLoader::repair(Primitive& out) {
     // Exporters let many primitives share one large set of vertices; each keeps only its own part.
-    const uint64_t bytes_before = bytes_of(out);
+    const uint64_t bytes_before = vertex_bytes(out);
     drop_unused_vertices(out);
-    context_.release(bytes_before - bytes_of(out));
+    context_.release(bytes_before - vertex_bytes(out));
     if (drop_unplaceable_triangles(out) > 0) {
         context_.warn(attribute_place("POSITION"),
                       "holds values that are not finite or beyond 1e9; the triangles there are dropped");
+        if (out.shape != PrimitiveShape::surface) drop_unused_vertices(out);
     }
     if (repair_normals(out) > 0) {
         context_.warn(attribute_place("NORMAL"),
@@ -125,23 +169,30 @@ void PrimitiveLoader::repair(Primitive& out) {
 }
 
 void PrimitiveLoader::check_uv_sets(const Primitive& primitive) {
-    if (!primitive.material.valid()) return;
-    for (const TextureSlot& slot : texture_slots(scene_.materials[primitive.material.value])) {
-        if (!primitive.uv[slot.ref->uv_set].empty()) continue;
-        context_.warn(where_, "has no TEXCOORD_" + std::to_string(slot.ref->uv_set) + " for its material's " +
-                                  slot.name + "; one texel is used throughout");
-    }
+    for_each_material(primitive, [&](MaterialId id) {
+        for (const TextureSlot& slot : texture_slots(scene_.materials[id.value])) {
+            if (!primitive.uv[slot.ref->uv_set].empty()) continue;
+            context_.warn(where_, "has no TEXCOORD_" + std::to_string(slot.ref->uv_set) + " for its material's " +
+                                      slot.name + "; one texel is used throughout");
+        }
+    });
+}
+
+void PrimitiveLoader::load_materials(Primitive& out) {
+    if (source_.material >= 0) out.material = MaterialId{static_cast<uint32_t>(source_.material)};
+    read_variant_mappings(context_, source_, where_, out.variants);
+}
+
+// Whether some material of the primitive shades along tangents.
+bool PrimitiveLoader::wants_tangents(const Primitive& primitive) const {
+    return tangent_uv_set_of(scene_, primitive).has_value();
 }
 
 std::optional<Primitive> PrimitiveLoader::load() {
     if (source_.mode < 0 || source_.mode > 6) {
         context_.fail(where_ + "/mode", std::to_string(source_.mode) + " is not a primitive mode of glTF");
     }
-    const auto mode = static_cast<PrimitiveMode>(source_.mode);
-    if (mode < PrimitiveMode::triangles) {
-        context_.warn(where_, std::string(mode_name(mode)) + " are not shown; only triangles are");
-        return std::nullopt;
-    }
+    auto mode = static_cast<PrimitiveMode>(source_.mode);
     const auto positions = attribute("POSITION");
     if (!positions) {
         context_.warn(where_, "has no POSITION and is not shown");
@@ -150,17 +201,22 @@ std::optional<Primitive> PrimitiveLoader::load() {
     if (accessors_.layout(*positions).count >= 0xffffffffu) {
         context_.fail(pointer_to("/accessors", *positions, "count"), "more vertices than 32-bit indices can name");
     }
+    if (draco_.decode(source_, where_, is_required(scene_, "KHR_draco_mesh_compression"))) {
+        mode = PrimitiveMode::triangles;
+    }
 
     Primitive out;
+    if (mode < PrimitiveMode::triangles) {
+        out.shape = mode == PrimitiveMode::points ? PrimitiveShape::points : PrimitiveShape::lines;
+    }
     out.positions = accessors_.read_vec3(*positions, attribute_place("POSITION"));
     out.triangles = load_triangles(mode, out.positions.size(), *positions);
-    if (source_.material >= 0) out.material = MaterialId{static_cast<uint32_t>(source_.material)};
-    const bool wants_tangents =
-        out.material.valid() && tangent_uv_set(scene_.materials[out.material.value]).has_value();
-    load_attributes(out, wants_tangents);
+    load_materials(out);
+    load_attributes(out, wants_tangents(out));
+    draco_.finish();
     repair(out);
     if (out.triangles.empty()) {
-        context_.warn(where_, "has no triangle that can be shown");
+        context_.warn(where_, "has nothing that can be shown");
         return std::nullopt;
     }
     check_uv_sets(out);
@@ -184,6 +240,7 @@ void warn_of_ignored_features(LoadContext& context, const tinygltf::Model& model
 std::vector<Mesh> load_meshes(LoadContext& context, const tinygltf::Model& model, AccessorReader& accessors,
                               const Scene& scene) {
     std::vector<Mesh> meshes;
+    DracoPrimitives draco(context, accessors);
     for (size_t m = 0; m < model.meshes.size(); ++m) {
         const tinygltf::Mesh& source = model.meshes[m];
         Mesh& mesh = meshes.emplace_back();
@@ -191,7 +248,7 @@ std::vector<Mesh> load_meshes(LoadContext& context, const tinygltf::Model& model
         for (size_t p = 0; p < source.primitives.size(); ++p) {
             context.check_cancel();
             const std::string where = pointer_to("/meshes", m, "primitives", p);
-            PrimitiveLoader loader(context, accessors, scene, source.primitives[p], where);
+            PrimitiveLoader loader(context, accessors, draco, scene, source.primitives[p], where);
             if (std::optional<Primitive> primitive = loader.load()) mesh.primitives.push_back(std::move(*primitive));
         }
     }
@@ -202,8 +259,8 @@ std::vector<Mesh> load_meshes(LoadContext& context, const tinygltf::Model& model
 void generate_missing_tangents(LoadContext& context, const Scene& scene, std::vector<Mesh>& meshes) {
     for (size_t m = 0; m < meshes.size(); ++m) {
         for (Primitive& primitive : meshes[m].primitives) {
-            if (!primitive.material.valid() || !primitive.tangents.empty()) continue;
-            const std::optional<uint32_t> uv_set = tangent_uv_set(scene.materials[primitive.material.value]);
+            if (!primitive.tangents.empty()) continue;
+            const std::optional<uint32_t> uv_set = tangent_uv_set_of(scene, primitive);
             if (!uv_set || primitive.uv[*uv_set].empty()) continue;
             context.check_cancel();
             // Vertices may be split, up to one per corner.

@@ -10,8 +10,9 @@ class Model;
 
 namespace candela {
 
-// The file's meshes; what cannot be shown (points, lines, primitives without positions) is left out with a warning.
-// Needs scene.materials. Throws LoadError for indices out of range, attributes of the wrong type or length.
+// The file's meshes, as many as it has; what cannot be shown (primitives without positions) is left out with a warning.
+// Points and lines need give_strokes_bodies afterwards. Needs scene.materials. Throws LoadError for indices out of
+// range, attributes of the wrong type or length.
 std::vector<Mesh> load_meshes(LoadContext& context, const tinygltf::Model& model, AccessorReader& accessors,
                               const Scene& scene);
 

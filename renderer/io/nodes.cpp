@@ -113,8 +113,9 @@ void choose_scene(LoadContext& context, const tinygltf::Model& model, Scene& sce
     const size_t count = model.scenes.size();
     if (context.options().scene) {
         if (*context.options().scene >= count) {
-            context.fail("/scenes", "scene " + std::to_string(*context.options().scene) +
-                                        " was asked for, but the file has " + std::to_string(count));
+            context.fail_choice("/scenes", "scene " + std::to_string(*context.options().scene) +
+                                               " was asked for, but the file has " + std::to_string(count) +
+                                               (count == 1 ? " scene, 0" : " scenes, counted from 0"));
         }
         scene.active_scene = *context.options().scene;
     } else if (model.defaultScene >= 0) {
@@ -151,6 +152,9 @@ void load_nodes(LoadContext& context, const tinygltf::Model& model, Scene& scene
         Node& node = scene.nodes.emplace_back();
         node.name = source.name;
         load_transform(context, source, where, node);
+        if (const tinygltf::Value* visibility = find_extension(source.extensions, "KHR_node_visibility")) {
+            node.visible = !visibility->Has("visible") || visibility->Get("visible").Get<bool>();
+        }
         if (source.mesh >= 0) node.mesh = MeshId{static_cast<uint32_t>(source.mesh)};
         if (source.camera >= 0) node.camera = CameraId{static_cast<uint32_t>(source.camera)};
         const tinygltf::Value* light = find_extension(source.extensions, "KHR_lights_punctual");

@@ -36,6 +36,20 @@ void gather(std::vector<T>& values, const std::vector<uint32_t>& kept) {
 
 }  // namespace
 
+void gather_vertices(Primitive& primitive, const std::vector<uint32_t>& kept) {
+    gather(primitive.positions, kept);
+    gather(primitive.normals, kept);
+    gather(primitive.tangents, kept);
+    gather(primitive.uv[0], kept);
+    gather(primitive.uv[1], kept);
+    gather(primitive.colors, kept);
+}
+
+uint64_t vertex_bytes(const Primitive& p) {
+    return p.positions.size() * sizeof(Vec3) + p.normals.size() * sizeof(Vec3) + p.tangents.size() * sizeof(Vec4) +
+           (p.uv[0].size() + p.uv[1].size()) * sizeof(Vec2) + p.colors.size() * sizeof(Vec4);
+}
+
 size_t drop_unused_vertices(Primitive& primitive) {
     const size_t before = primitive.positions.size();
     constexpr uint32_t unused = 0xffffffffu;
@@ -53,12 +67,7 @@ size_t drop_unused_vertices(Primitive& primitive) {
     if (kept.size() == before) return 0;
     for (Vec3u& t : primitive.triangles)
         t = {new_index[t.x], new_index[t.y], new_index[t.z]};
-    gather(primitive.positions, kept);
-    gather(primitive.normals, kept);
-    gather(primitive.tangents, kept);
-    gather(primitive.uv[0], kept);
-    gather(primitive.uv[1], kept);
-    gather(primitive.colors, kept);
+    gather_vertices(primitive, kept);
     return before - kept.size();
 }
 

@@ -6,6 +6,12 @@
 
 namespace candela {
 
+// Vertex i becomes what vertex kept[i] was, with all that it carries. Triangles are left alone.
+void gather_vertices(Primitive& primitive, const std::vector<uint32_t>& kept);
+
+// Bytes of all per-vertex arrays.
+uint64_t vertex_bytes(const Primitive& primitive);
+
 // Keeps only the vertices that triangles use, in their order; returns how many went.
 size_t drop_unused_vertices(Primitive& primitive);
 

@@ -20,6 +20,7 @@ struct Rule {
 
 constexpr bool needed = true;
 constexpr std::string_view image_lights_path = "extensions/EXT_lights_image_based/lights";
+constexpr std::string_view variants_path = "extensions/KHR_materials_variants/variants";
 constexpr std::string_view lights_path = "extensions/KHR_lights_punctual/lights";
 
 // Parents stand before their members, so that a walk meets only containers of checked type.
@@ -146,6 +147,11 @@ constexpr Rule rules[] = {
     {"materials/*/extensions/KHR_materials_pbrSpecularGlossiness/specularFactor", Kind::numbers, {}, false, 0, 3},
     {"materials/*/extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor", Kind::number},
 
+    {"extensions/KHR_materials_variants", Kind::object},
+    {"extensions/KHR_materials_variants/variants", Kind::array, {}, needed},
+    {"extensions/KHR_materials_variants/variants/*", Kind::object},
+    {"extensions/KHR_materials_variants/variants/*/name", Kind::string, {}, needed},
+
     {"meshes", Kind::array},
     {"meshes/*", Kind::object},
     {"meshes/*/name", Kind::string},
@@ -161,6 +167,16 @@ constexpr Rule rules[] = {
     {"meshes/*/primitives/*/targets/*", Kind::object},
     {"meshes/*/primitives/*/targets/*/*", Kind::index, "accessors"},
     {"meshes/*/primitives/*/extensions", Kind::object},
+    {"meshes/*/primitives/*/extensions/KHR_materials_variants", Kind::object},
+    {"meshes/*/primitives/*/extensions/KHR_materials_variants/mappings", Kind::array, {}, needed},
+    {"meshes/*/primitives/*/extensions/KHR_materials_variants/mappings/*", Kind::object},
+    {"meshes/*/primitives/*/extensions/KHR_materials_variants/mappings/*/material", Kind::index, "materials", needed},
+    {"meshes/*/primitives/*/extensions/KHR_materials_variants/mappings/*/variants", Kind::array, {}, needed},
+    {"meshes/*/primitives/*/extensions/KHR_materials_variants/mappings/*/variants/*", Kind::index, variants_path},
+    {"meshes/*/primitives/*/extensions/KHR_draco_mesh_compression", Kind::object},
+    {"meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/bufferView", Kind::index, "bufferViews", needed},
+    {"meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/attributes", Kind::object, {}, needed},
+    {"meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/attributes/*", Kind::integer},
 
     {"cameras", Kind::array},
     {"cameras/*", Kind::object},
@@ -214,6 +230,11 @@ constexpr Rule rules[] = {
     {"nodes/*/scale", Kind::numbers, {}, false, 0, 3},
     {"nodes/*/weights", Kind::numbers},
     {"nodes/*/extensions", Kind::object},
+    {"nodes/*/extensions/KHR_node_visibility", Kind::object},
+    {"nodes/*/extensions/KHR_node_visibility/visible", Kind::boolean},
+    {"nodes/*/extensions/EXT_mesh_gpu_instancing", Kind::object},
+    {"nodes/*/extensions/EXT_mesh_gpu_instancing/attributes", Kind::object, {}, needed},
+    {"nodes/*/extensions/EXT_mesh_gpu_instancing/attributes/*", Kind::index, "accessors"},
     {"nodes/*/extensions/KHR_lights_punctual", Kind::object},
     {"nodes/*/extensions/KHR_lights_punctual/light", Kind::index, lights_path, needed},
 

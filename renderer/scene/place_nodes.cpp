@@ -45,6 +45,25 @@ void walk(const Scene& scene, NodeId root, std::vector<uint8_t>& seen, const Vis
     }
 }
 
+// Once, or as often as the node says; false where the transform of some instance is not finite.
+bool place_mesh(Scene& scene, NodeId id, const dmat4& world_from_node) {
+    const Node& node = scene.nodes[id.value];
+    if (node.node_from_instance == nullptr) {
+        scene.instances.push_back({node.mesh, id, Mat4(world_from_node), node.moves, false});
+        return true;
+    }
+    bool all_finite = true;
+    for (const Mat4& node_from_instance : *node.node_from_instance) {
+        const Mat4 world_from_instance(world_from_node * dmat4(node_from_instance));
+        if (is_finite(world_from_instance)) {
+            scene.instances.push_back({node.mesh, id, world_from_instance, node.moves, false});
+        } else {
+            all_finite = false;
+        }
+    }
+    return all_finite;
+}
+
 }  // namespace
 
 Mat4 compose_transform(const Vec3& translation, const Quat& rotation, const Vec3& scale) {
@@ -90,7 +109,7 @@ std::vector<NodeId> place_nodes(Scene& scene, const std::vector<dmat4>& world_fr
         }
         // What is hidden is neither drawn nor shines, but a camera sees from there.
         if (hidden[id.value] == 0) {
-            if (has_mesh) scene.instances.push_back({node.mesh, id, world_from_this, node.moves, false});
+            if (has_mesh && !place_mesh(scene, id, world_from_node[id.value])) not_finite.push_back(id);
             if (node.light.valid()) scene.light_instances.push_back({node.light, id, world_from_this});
         }
         if (node.camera.valid()) {

@@ -3,6 +3,15 @@
 
 namespace candela {
 
+MaterialId material_of(const Scene& scene, const Primitive& primitive) {
+    if (scene.active_variant) {
+        for (const VariantMaterial& each : primitive.variants) {
+            if (each.variant == *scene.active_variant) return each.material;
+        }
+    }
+    return primitive.material;
+}
+
 Bounds3 bounds_of(const Scene& scene) {
     Bounds3 bounds;
     for (const Instance& instance : scene.instances) {

@@ -36,6 +36,15 @@ using LightId = Id<struct LightTag>;
 using CameraId = Id<struct CameraTag>;
 using SkinId = Id<struct SkinTag>;
 
+// What a primitive is of in the file; points and lines have bodies of triangles (StrokeSummary).
+enum class PrimitiveShape : uint8_t { surface, points, lines };
+
+// KHR_materials_variants: the material that a primitive has in one of the file's variants.
+struct VariantMaterial {
+    uint32_t variant = 0;  // Scene::variant_names index
+    MaterialId material;
+};
+
 // Triangles that share one material: a glTF primitive. Per-vertex arrays are empty or as long as positions.
 struct Primitive {
     std::vector<Vec3> positions;
@@ -44,8 +53,10 @@ struct Primitive {
     std::vector<Vec2> uv[2];
     std::vector<Vec4> colors;      // linear RGBA factors
     std::vector<Vec3u> triangles;  // vertex indices, all in range
-    MaterialId material;           // invalid: glTF's default material
-    bool flat_normals = false;     // the file gives no normals: the geometric normal shades, normals is empty
+    MaterialId material;           // outside of all variants; invalid: glTF's default material
+    std::vector<VariantMaterial> variants;
+    PrimitiveShape shape = PrimitiveShape::surface;
+    bool flat_normals = false;  // the file gives no normals: the geometric normal shades, normals is empty
     // Morph targets and joint influences (deform.h), for the vertices as the file models them; null: a rigid shape.
     std::shared_ptr<const Deformation> deformation;
 };
@@ -239,7 +250,9 @@ struct Node {
     LightId light;
     CameraId camera;
     std::vector<float> morph_weights;  // one for each morph target of its mesh
-    bool visible = true;               // false: neither it nor what hangs from it is shown
+    // EXT_mesh_gpu_instancing: where the node places its mesh; null: once, as the node stands.
+    std::shared_ptr<const std::vector<Mat4>> node_from_instance;
+    bool visible = true;  // KHR_node_visibility: false hides meshes and lights of the node and of all below it
     bool in_active_scene = false;
     bool moves = false;  // an animation moves, shows or hides it or one of its ancestors
 };
@@ -258,6 +271,12 @@ struct ExtensionUse {
     bool required = false;
     Treatment treatment = Treatment::ignored;
     std::string how;  // what an approximation does
+};
+
+// The points and lines of a file, which are drawn as spheres and tubes of one width.
+struct StrokeSummary {
+    uint64_t points = 0, segments = 0;
+    float width_m = 0.0f;
 };
 
 // Copies share meshes, pictures and animations; whoever changes one of these puts another in its place. So equal
@@ -285,11 +304,16 @@ struct Scene {
     std::vector<CameraInstance> cameras;
     std::optional<Environment> environment;
 
+    std::vector<std::string> variant_names;
+    std::optional<uint32_t> active_variant;  // none: each primitive's own material
+    StrokeSummary strokes;
     std::vector<ExtensionUse> extensions;
 
     const Mesh& mesh(MeshId id) const { return *meshes[id.value]; }
 };
 
+// What the primitive is made of in the active variant; invalid: glTF's default material.
+MaterialId material_of(const Scene& scene, const Primitive& primitive);
 // World-space bounds of all instances of the active scene.
 Bounds3 bounds_of(const Scene& scene);
 // Triangles of all the file's meshes, each counted once, and of all instances.

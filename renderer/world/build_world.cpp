@@ -108,12 +108,17 @@ std::shared_ptr<const World> build_world(std::shared_ptr<const Scene> scene_poin
     std::vector<uint32_t> group_of_mesh(scene.meshes.size(), invalid_index);
     std::vector<uint32_t> group_positions(scene.meshes.size(), 0);
     const auto geometry_of = [&](const Primitive& primitive, const std::vector<Vec3>& positions, uint32_t surface) {
-        const Material& material =
-            world->materials[primitive.material.valid() ? primitive.material.value : world->materials.size() - 1];
+        // In whichever variant, so that switching them needs no other accelerator.
+        const auto lets_light_through = [&](MaterialId id) {
+            const Material& material = world->materials[id.valid() ? id.value : world->materials.size() - 1];
+            return opacity.may_be_transparent(material, primitive) || material.is_thin_glass();
+        };
         AccelGeometry geometry;
         geometry.positions = std::span(positions).first(primitive.positions.size());
         geometry.triangles = primitive.triangles;
-        geometry.has_opacity = opacity.may_be_transparent(material, primitive) || material.is_thin_glass();
+        geometry.has_opacity = lets_light_through(primitive.material);
+        for (const VariantMaterial& each : primitive.variants)
+            geometry.has_opacity = geometry.has_opacity || lets_light_through(each.material);
         geometry.surface = surface;
         return geometry;
     };
@@ -142,8 +147,9 @@ std::shared_ptr<const World> build_world(std::shared_ptr<const Scene> scene_poin
 
         for (uint32_t k = 0; k < mesh.primitives.size(); ++k) {
             const Primitive& primitive = mesh.primitives[k];
-            const uint32_t material = primitive.material.valid() ? primitive.material.value
-                                                                 : static_cast<uint32_t>(world->materials.size() - 1);
+            const MaterialId material_id = material_of(scene, primitive);
+            const uint32_t material =
+                material_id.valid() ? material_id.value : static_cast<uint32_t>(world->materials.size() - 1);
             if (!shared) {
                 world->positions.push_back(padded_positions(primitive.positions, &instance.world_from_object));
                 input.world_geometry.push_back(geometry_of(primitive, world->positions.back(), first_surface + k));

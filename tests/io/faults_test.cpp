@@ -126,7 +126,7 @@ TEST_F(Faults, MemoryIsRefusedBeforeItIsTaken) {
 
 TEST_F(Faults, Extensions) {
     Document document = Document::triangle();
-    document.json["extensionsUsed"] = {"KHR_materials_unlit", "KHR_node_visibility", "EXT_new", "KHR_xmp_json_ld"};
+    document.json["extensionsUsed"] = {"KHR_materials_unlit", "KHR_texture_video", "EXT_new", "KHR_xmp_json_ld"};
     document.json["extensionsRequired"] = {"KHR_materials_unlit"};
     const Scene scene = load(document);
     ASSERT_EQ(scene.extensions.size(), 4u);
@@ -135,13 +135,13 @@ TEST_F(Faults, Extensions) {
     EXPECT_EQ(scene.extensions[0].treatment, ExtensionUse::Treatment::rendered);
     EXPECT_FALSE(scene.extensions[1].required);
     EXPECT_EQ(scene.extensions[1].treatment, ExtensionUse::Treatment::ignored);
-    EXPECT_TRUE(warned("/extensionsUsed/1", "KHR_node_visibility is ignored: all nodes are visible")) << all_warnings();
+    EXPECT_TRUE(warned("/extensionsUsed/1", "KHR_texture_video is ignored")) << all_warnings();
     EXPECT_TRUE(warned("/extensionsUsed/2", "EXT_new is ignored"));
     EXPECT_EQ(diagnostics_.warnings().size(), 2u);
 
-    document.json["extensionsRequired"] = {"KHR_materials_unlit", "KHR_draco_mesh_compression"};
+    document.json["extensionsRequired"] = {"KHR_materials_unlit", "KHR_texture_video"};
     EXPECT_EQ(failure(document),
-              "/extensionsRequired/1: the required extension KHR_draco_mesh_compression is not supported; export the "
+              "/extensionsRequired/1: the required extension KHR_texture_video is not supported; export the "
               "scene without it");
     document.json["extensionsRequired"] = {"KHR_xmp_json_ld", "KHR_materials_variants"};
     EXPECT_EQ(failure(document), "loaded") << "what they add is no part of the default picture";

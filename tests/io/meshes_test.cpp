@@ -47,18 +47,6 @@ TEST_F(Meshes, StripsAndFansKeepTheirWinding) {
     }
 }
 
-TEST_F(Meshes, PointsAndLinesAreNamedAndSkipped) {
-    const Scene points = load(polygon(6, 0));
-    EXPECT_TRUE(points.meshes.at(0)->primitives.empty());
-    EXPECT_TRUE(points.instances.empty());
-    EXPECT_TRUE(warned("/meshes/0/primitives/0", "points are not shown")) << all_warnings();
-    for (const int mode : {1, 2, 3}) {
-        load(polygon(6, mode));
-        EXPECT_TRUE(warned("/meshes/0/primitives/0", "lines are not shown")) << all_warnings();
-    }
-    EXPECT_EQ(failure(polygon(6, 7)), "/meshes/0/primitives/0/mode: 7 is not a primitive mode of glTF");
-}
-
 TEST_F(Meshes, NormalsAreFlatWhereTheFileHasNone) {
     const Primitive p = first(load(Document::triangle()));
     EXPECT_TRUE(p.flat_normals);

@@ -86,7 +86,7 @@ TEST_F(Nodes, ScenesAreChosenByOptionThenFileThenFirst) {
     options_.scene = 0;
     EXPECT_EQ(load(document).instances.at(0).node.value, 0u);
     options_.scene = 3;
-    EXPECT_EQ(failure(document), "/scenes: scene 3 was asked for, but the file has 3");
+    EXPECT_EQ(failure(document), "/scenes: scene 3 was asked for, but the file has 3 scenes, counted from 0");
     options_.scene.reset();
     document.json.erase("scene");
     EXPECT_EQ(load(document).active_scene, 0u);

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/io/strokes.h"
+
+#include <map>
+
+#include "renderer/io/repair.h"
+#include "renderer/scene/place_nodes.h"
+
+namespace candela {
+namespace {
+
+// A unit sphere of triangles, wound to be seen from outside.
+struct UnitSphere {
+    std::vector<Vec3> normals;
+    std::vector<Vec3u> triangles;
+};
+
+UnitSphere tetrahedron() {
+    const float s = 1.0f / std::sqrt(3.0f);
+    return {{{s, s, s}, {s, -s, -s}, {-s, s, -s}, {-s, -s, s}}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}};
+}
+
+UnitSphere octahedron() {
+    return {{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+            {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
+}
+
+// Every edge is halved and its middle moved out to the sphere.
+UnitSphere subdivided(const UnitSphere& from) {
+    UnitSphere out{from.normals, {}};
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
+    const auto middle = [&](uint32_t a, uint32_t b) {
+        const auto [found, is_new] =
+            middles.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<uint32_t>(out.normals.size()));
+        if (is_new) out.normals.push_back(glm::normalize(out.normals[a] + out.normals[b]));
+        return found->second;
+    };
+    for (const Vec3u& t : from.triangles) {
+        const uint32_t xy = middle(t.x, t.y), yz = middle(t.y, t.z), zx = middle(t.z, t.x);
+        out.triangles.insert(out.triangles.end(), {{t.x, xy, zx}, {xy, t.y, yz}, {zx, yz, t.z}, {xy, yz, zx}});
+    }
+    return out;
+}
+
+struct Detail {
+    UnitSphere sphere;
+    uint32_t sides;  // of a tube
+};
+
+// Triangles are shared out: 128 to a sphere while there are few, 4 where there are millions.
+Detail choose_detail(uint64_t count) {
+    if (count <= 20'000) return {subdivided(subdivided(octahedron())), 12};
+    if (count <= 100'000) return {subdivided(octahedron()), 8};
+    if (count <= 500'000) return {octahedron(), 4};
+    return {tetrahedron(), 3};
+}
+
+// Where the active scene has its meshes, hidden ones too.
+class Placements {
+  public:
+    explicit Placements(const Scene& scene) : scene_(scene), world_from_node_(world_from_nodes(scene)) {
+        std::vector<NodeId> stack = scene.roots;
+        std::vector<uint8_t> seen(scene.nodes.size(), 0);
+        while (!stack.empty()) {
+            const NodeId id = stack.back();
+            stack.pop_back();
+            if (seen[id.value] != 0) continue;
+            seen[id.value] = 1;
+            const Node& node = scene.nodes[id.value];
+            if (node.mesh.valid()) nodes_.push_back(id);
+            stack.insert(stack.end(), node.children.rbegin(), node.children.rend());
+        }
+    }
+
+    // The diagonal of the box around the boxes of all placed meshes.
+    float diagonal(const std::vector<Mesh>& meshes) const {
+        std::vector<Bounds3> boxes(meshes.size());
+        for (size_t m = 0; m < meshes.size(); ++m) {
+            for (const Primitive& primitive : meshes[m].primitives) {
+                for (const Vec3& position : primitive.positions)
+                    boxes[m].extend(position);
+            }
+        }
+        Bounds3 all;
+        for (const NodeId id : nodes_) {
+            const Node& node = scene_.nodes[id.value];
+            const Bounds3& box = boxes[node.mesh.value];
+            if (box.empty()) continue;
+            for_each_transform(id, [&](const glm::dmat4& world_from_object) {
+                for (int corner = 0; corner < 8; ++corner) {
+                    const Vec3 p((corner & 1) != 0 ? box.upper.x : box.lower.x,
+                                 (corner & 2) != 0 ? box.upper.y : box.lower.y,
+                                 (corner & 4) != 0 ? box.upper.z : box.lower.z);
+                    const Vec3 placed(world_from_object * glm::dvec4(p, 1.0));
+                    if (is_finite(placed)) all.extend(placed);
+                }
+                return true;
+            });
+        }
+        return all.empty() ? 0.0f : glm::length(all.upper - all.lower);
+    }
+
+    // The linear part of the first placement of a mesh: widths are the same in every direction of the world, whatever
+    // the node stretches.
+    glm::dmat3 linear_of(MeshId mesh) const {
+        glm::dmat3 out(1.0);
+        for (const NodeId id : nodes_) {
+            if (scene_.nodes[id.value].mesh != mesh) continue;
+            for_each_transform(id, [&](const glm::dmat4& world_from_object) {
+                out = glm::dmat3(world_from_object);
+                return false;
+            });
+            break;
+        }
+        const double determinant = glm::determinant(out);
+        return std::isfinite(determinant) && std::abs(determinant) > 1e-30 ? out : glm::dmat3(1.0);
+    }
+
+  private:
+    // Until the action returns false.
+    template <typename Action>
+    void for_each_transform(NodeId id, const Action& action) const {
+        const Node& node = scene_.nodes[id.value];
+        const glm::dmat4& world_from_node = world_from_node_[id.value];
+        if (node.node_from_instance == nullptr) {
+            action(world_from_node);
+            return;
+        }
+        for (const Mat4& node_from_instance : *node.node_from_instance) {
+            if (!action(world_from_node * glm::dmat4(node_from_instance))) return;
+        }
+    }
+
+    const Scene& scene_;
+    std::vector<glm::dmat4> world_from_node_;
+    std::vector<NodeId> nodes_;  // of the active scene, with a mesh, in the order of the tree
+};
+
+class BodyMaker {
+  public:
+    BodyMaker(const Detail& detail, double radius, const glm::dmat3& world_from_object)
+        : detail_(detail),
+          radius_(radius),
+          world_from_object_(world_from_object),
+          object_from_world_(glm::inverse(world_from_object)),
+          object_from_normal_(glm::transpose(world_from_object)),
+          mirrored_(glm::determinant(world_from_object) < 0.0) {}
+
+    void make(Primitive& primitive) {
+        const std::vector<Vec3u> strokes = std::move(primitive.triangles);
+        const std::vector<Vec3> positions = primitive.positions;
+        for (uint32_t v = 0; v < positions.size(); ++v)
+            add_sphere(positions[v], v);
+        for (const Vec3u& stroke : strokes) {
+            if (stroke.x != stroke.y) add_tube(positions[stroke.x], stroke.x, positions[stroke.y], stroke.y);
+        }
+        gather_vertices(primitive, sources_);
+        primitive.positions = std::move(positions_);
+        primitive.normals = std::move(normals_);
+        primitive.triangles = std::move(triangles_);
+        primitive.flat_normals = false;
+    }
+
+  private:
+    void add_vertex(const Vec3& center, const glm::dvec3& world_normal, uint32_t source) {
+        positions_.emplace_back(glm::dvec3(center) + object_from_world_ * (radius_ * world_normal));
+        normals_.emplace_back(glm::normalize(object_from_normal_ * world_normal));
+        sources_.push_back(source);
+    }
+
+    // Wound as seen from outside in the world; a mirroring node turns that round (glTF 2.0, section 3.7.4).
+    void add_triangle(uint32_t a, uint32_t b, uint32_t c) {
+        triangles_.push_back(mirrored_ ? Vec3u(a, c, b) : Vec3u(a, b, c));
+    }
+
+    void add_sphere(const Vec3& center, uint32_t source) {
+        const auto first = static_cast<uint32_t>(positions_.size());
+        for (const Vec3& normal : detail_.sphere.normals)
+            add_vertex(center, glm::dvec3(normal), source);
+        for (const Vec3u& t : detail_.sphere.triangles)
+            add_triangle(first + t.x, first + t.y, first + t.z);
+    }
+
+    void add_tube(const Vec3& a, uint32_t source_a, const Vec3& b, uint32_t source_b) {
+        const glm::dvec3 along = world_from_object_ * (glm::dvec3(b) - glm::dvec3(a));
+        const double length = glm::length(along);
+        if (!(length > 0.0) || !std::isfinite(length)) return;
+        const glm::dvec3 d = along / length;
+        const glm::dvec3 axis = std::abs(d.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+        const glm::dvec3 u = glm::normalize(axis - d * glm::dot(d, axis)), v = glm::cross(d, u);
+        const auto first = static_cast<uint32_t>(positions_.size());
+        const uint32_t sides = detail_.sides;
+        for (uint32_t i = 0; i < sides; ++i) {
+            const double angle = 2.0 * 3.14159265358979323846 * i / sides;
+            const glm::dvec3 normal = std::cos(angle) * u + std::sin(angle) * v;
+            add_vertex(a, normal, source_a);
+            add_vertex(b, normal, source_b);
+        }
+        for (uint32_t i = 0; i < sides; ++i) {
+            const uint32_t a0 = first + 2 * i, a1 = first + 2 * ((i + 1) % sides);
+            add_triangle(a0, a1, a0 + 1);
+            add_triangle(a1, a1 + 1, a0 + 1);
+        }
+    }
+
+    const Detail& detail_;
+    double radius_;
+    glm::dmat3 world_from_object_, object_from_world_, object_from_normal_;
+    bool mirrored_;
+    std::vector<Vec3> positions_, normals_;
+    std::vector<Vec3u> triangles_;
+    std::vector<uint32_t> sources_;
+};
+
+}  // namespace
+
+float stroke_width(float scene_diagonal, uint64_t count) {
+    const float diagonal = scene_diagonal > 0.0f && std::isfinite(scene_diagonal) ? scene_diagonal : 1.0f;
+    return diagonal / std::max(1.0f / stroke_width_per_diagonal, std::sqrt(static_cast<float>(count)));
+}
+
+void give_strokes_bodies(LoadContext& context, Scene& scene, std::vector<Mesh>& meshes) {
+    // Count what there is, to choose how fine and how thick it may be.
+    StrokeSummary& summary = scene.strokes;
+    uint64_t spheres = 0, tubes = 0;
+    for (const Mesh& mesh : meshes) {
+        for (const Primitive& primitive : mesh.primitives) {
+            if (primitive.shape == PrimitiveShape::surface) continue;
+            spheres += primitive.positions.size();
+            if (primitive.shape == PrimitiveShape::points) {
+                summary.points += primitive.positions.size();
+            } else {
+                tubes += primitive.triangles.size();
+            }
+        }
+    }
+    if (spheres == 0) return;
+    summary.segments = tubes;
+    const Placements placements(scene);
+    summary.width_m = stroke_width(placements.diagonal(meshes), spheres + tubes);
+    const Detail detail = choose_detail(spheres + tubes);
+
+    for (uint32_t m = 0; m < meshes.size(); ++m) {
+        for (Primitive& primitive : meshes[m].primitives) {
+            if (primitive.shape == PrimitiveShape::surface) continue;
+            context.check_cancel();
+            const uint64_t own_tubes = primitive.shape == PrimitiveShape::lines ? primitive.triangles.size() : 0;
+            const uint64_t own_spheres = primitive.positions.size();
+            const uint64_t vertices = own_spheres * detail.sphere.normals.size() + own_tubes * 2 * detail.sides;
+            const uint64_t triangles = own_spheres * detail.sphere.triangles.size() + own_tubes * 2 * detail.sides;
+            const uint64_t bytes_each = own_spheres == 0 ? 0 : vertex_bytes(primitive) / own_spheres + sizeof(Vec3);
+            const std::string where = pointer_to("/meshes", m);
+            context.charge(vertices, bytes_each + sizeof(uint32_t), where);
+            context.charge(triangles, sizeof(Vec3u), where);
+            if (vertices >= 0xffffffffu) context.fail(where, "has more points and lines than can be drawn");
+            BodyMaker(detail, 0.5 * static_cast<double>(summary.width_m), placements.linear_of(MeshId{m}))
+                .make(primitive);
+            context.release(vertices * sizeof(uint32_t));
+        }
+    }
+}
+
+}  // namespace candela
