@@ -27,7 +27,7 @@ constexpr Known known[] = {
     {"KHR_mesh_quantization", Treatment::rendered, true, ""},
     {"KHR_texture_basisu", Treatment::rendered, true, ""},
     {"KHR_texture_transform", Treatment::rendered, true, ""},
-    {"KHR_animation_pointer", Treatment::ignored, false, "animations are not played"},
+    {"KHR_animation_pointer", Treatment::rendered, true, ""},
     {"KHR_draco_mesh_compression", Treatment::rendered, true, ""},
     {"KHR_materials_anisotropy", Treatment::rendered, true, ""},
     {"KHR_materials_clearcoat", Treatment::rendered, true, ""},

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "renderer/io/animations.h"
 #include "renderer/io/asset_images.h"
 #include "renderer/io/extensions.h"
 #include "renderer/io/glb_container.h"
@@ -14,11 +15,11 @@
 #include "renderer/io/meshes.h"
 #include "renderer/io/nodes.h"
 #include "renderer/io/schema.h"
+#include "renderer/io/skins.h"
 #include "renderer/io/strokes.h"
 #include "renderer/io/structure.h"
 #include "renderer/io/tinygltf.h"
 #include "renderer/io/variants.h"
-#include "renderer/scene/animation.h"
 #include "renderer/scene/pose.h"
 
 namespace candela {
@@ -52,24 +53,12 @@ AssetFiles open_directory(LoadContext& context, const std::filesystem::path& pat
     }
 }
 
-void list_animations(LoadContext& context, const Json& document, Scene& scene) {
-    const auto animations = document.find("animations");
-    if (animations == document.end()) return;
-    for (const Json& animation : *animations) {
-        auto out = std::make_shared<Animation>();
-        out->name = animation.value("name", std::string());
-        scene.animations.push_back(std::move(out));
-    }
-    if (!scene.animations.empty()) {
-        context.warn("/animations", "animations are not played; the nodes stand as the file places them");
-    }
-}
-
 void take_rest_pose(LoadContext& context, Scene& scene) {
+    charge_posed_meshes(context, scene);
     mark_moving_nodes(scene);
     for (const NodeId node : pose_scene(scene)) {
         context.warn(pointer_to("/nodes", node.value),
-                     "its transform in the world is not finite; what it holds is not shown");
+                     "its transform in the world, or the shape of its mesh, is not finite; what it holds is not shown");
     }
 }
 
@@ -88,7 +77,6 @@ Scene load(LoadContext& context, const std::filesystem::path& path) {
     const Layout layout = read_layout(context, document);
     tinygltf::Model model;
     read_structure(context, document, model);
-    list_animations(context, document, scene);
     context.check_cancel();
 
     const AssetFiles files = open_directory(context, path);
@@ -111,6 +99,9 @@ Scene load(LoadContext& context, const std::filesystem::path& path) {
     generate_missing_tangents(context, scene, meshes);
     for (Mesh& mesh : meshes)
         scene.meshes.push_back(std::make_shared<const Mesh>(std::move(mesh)));
+    load_skins(context, document, accessors, scene);
+    connect_deformations(context, model, scene);
+    load_animations(context, document, accessors, scene);
     take_rest_pose(context, scene);
 
     if (context.options().decode_images) {

@@ -6,14 +6,14 @@ namespace {
 
 constexpr double no_limit = 3e38;
 
-// KHR_texture_transform: translation · rotation · scale. A positive rotation turns the coordinates counter-clockwise as
-// the picture is seen, where v points down: u' = u cos + v sin, v' = v cos - u sin.
 glm::mat3x2 uv_transform(const tinygltf::Value& transform) {
-    const double angle = number_member(transform, "rotation", 0.0);
-    const double c = std::cos(angle), s = std::sin(angle);
-    const double su = array_member(transform, "scale", 0, 1.0), sv = array_member(transform, "scale", 1, 1.0);
-    const double ou = array_member(transform, "offset", 0, 0.0), ov = array_member(transform, "offset", 1, 0.0);
-    return glm::mat3x2(glm::dmat3x2(c * su, -s * su, s * sv, c * sv, ou, ov));
+    UvTransform parts;
+    parts.rotation_radians = number_member(transform, "rotation", 0.0);
+    for (int i = 0; i < 2; ++i) {
+        parts.offset[i] = array_member(transform, "offset", i, 0.0);
+        parts.scale[i] = array_member(transform, "scale", i, 1.0);
+    }
+    return compose_uv_transform(parts);
 }
 
 void read_specular(const MaterialReader& reader, const tinygltf::Value& from, const std::string& where,

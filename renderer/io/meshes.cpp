@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/io/meshes.h"
 
+#include "renderer/io/deformations.h"
 #include "renderer/io/draco_primitive.h"
 #include "renderer/io/materials.h"
 #include "renderer/io/repair.h"
@@ -15,13 +16,14 @@ namespace {
 class PrimitiveLoader {
   public:
     PrimitiveLoader(LoadContext& context, AccessorReader& accessors, DracoPrimitives& draco, const Scene& scene,
-                    const tinygltf::Primitive& source, std::string where)
+                    const tinygltf::Primitive& source, std::string where, bool skinned)
         : context_(context),
           accessors_(accessors),
           draco_(draco),
           scene_(scene),
           source_(source),
-          where_(std::move(where)) {}
+          where_(std::move(where)),
+          skinned_(skinned) {}
 
     // Empty where there is nothing to show.
     std::optional<Primitive> load();
@@ -44,6 +46,7 @@ class PrimitiveLoader {
     const Scene& scene_;
     const tinygltf::Primitive& source_;
     std::string where_;
+    bool skinned_;
 };
 
 // The primitive's own material and those of its variants, as far as it has any.
@@ -213,6 +216,7 @@ std::optional<Primitive> PrimitiveLoader::load() {
     out.triangles = load_triangles(mode, out.positions.size(), *positions);
     load_materials(out);
     load_attributes(out, wants_tangents(out));
+    load_deformation(context_, accessors_, source_, where_, skinned_, out);
     draco_.finish();
     repair(out);
     if (out.triangles.empty()) {
@@ -223,22 +227,14 @@ std::optional<Primitive> PrimitiveLoader::load() {
     return out;
 }
 
-// Said once each, for they concern the whole picture.
-void warn_of_ignored_features(LoadContext& context, const tinygltf::Model& model) {
-    for (size_t m = 0; m < model.meshes.size(); ++m) {
-        for (size_t p = 0; p < model.meshes[m].primitives.size(); ++p) {
-            if (model.meshes[m].primitives[p].targets.empty()) continue;
-            context.warn(pointer_to("/meshes", m, "primitives", p, "targets"),
-                         "morph targets are ignored; the base shape is shown");
-            return;
-        }
-    }
-}
-
 }  // namespace
 
 std::vector<Mesh> load_meshes(LoadContext& context, const tinygltf::Model& model, AccessorReader& accessors,
                               const Scene& scene) {
+    std::vector<uint8_t> skinned(model.meshes.size(), 0);
+    for (const Node& node : scene.nodes) {
+        if (node.mesh.valid() && node.skin.valid()) skinned[node.mesh.value] = 1;
+    }
     std::vector<Mesh> meshes;
     DracoPrimitives draco(context, accessors);
     for (size_t m = 0; m < model.meshes.size(); ++m) {
@@ -248,11 +244,10 @@ std::vector<Mesh> load_meshes(LoadContext& context, const tinygltf::Model& model
         for (size_t p = 0; p < source.primitives.size(); ++p) {
             context.check_cancel();
             const std::string where = pointer_to("/meshes", m, "primitives", p);
-            PrimitiveLoader loader(context, accessors, draco, scene, source.primitives[p], where);
+            PrimitiveLoader loader(context, accessors, draco, scene, source.primitives[p], where, skinned[m] != 0);
             if (std::optional<Primitive> primitive = loader.load()) mesh.primitives.push_back(std::move(*primitive));
         }
     }
-    warn_of_ignored_features(context, model);
     return meshes;
 }
 

@@ -145,7 +145,6 @@ void list_roots(LoadContext& context, const tinygltf::Model& model, Scene& scene
 }  // namespace
 
 void load_nodes(LoadContext& context, const tinygltf::Model& model, Scene& scene) {
-    bool has_skin = false;
     for (size_t n = 0; n < model.nodes.size(); ++n) {
         const tinygltf::Node& source = model.nodes[n];
         const std::string where = pointer_to("/nodes", n);
@@ -161,10 +160,7 @@ void load_nodes(LoadContext& context, const tinygltf::Model& model, Scene& scene
         if (light != nullptr && light->Has("light")) {
             node.light = LightId{static_cast<uint32_t>(light->Get("light").GetNumberAsInt())};
         }
-        if (source.skin >= 0 && !has_skin) {
-            context.warn(where + "/skin", "skins are ignored; meshes are shown as modelled");
-            has_skin = true;
-        }
+        if (source.skin >= 0) node.skin = SkinId{static_cast<uint32_t>(source.skin)};
     }
     link_children(context, model, scene);
     choose_scene(context, model, scene);

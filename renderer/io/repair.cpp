@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/io/repair.h"
 
+#include "renderer/scene/deform.h"
+
 namespace candela {
 namespace {
 
@@ -43,6 +45,9 @@ void gather_vertices(Primitive& primitive, const std::vector<uint32_t>& kept) {
     gather(primitive.uv[0], kept);
     gather(primitive.uv[1], kept);
     gather(primitive.colors, kept);
+    if (primitive.deformation) {
+        primitive.deformation = std::make_shared<const Deformation>(gather_vertices(*primitive.deformation, kept));
+    }
 }
 
 uint64_t vertex_bytes(const Primitive& p) {

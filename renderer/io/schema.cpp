@@ -202,6 +202,7 @@ constexpr Rule rules[] = {
 
     {"skins", Kind::array},
     {"skins/*", Kind::object},
+    {"skins/*/name", Kind::string},
     {"skins/*/inverseBindMatrices", Kind::index, "accessors"},
     {"skins/*/skeleton", Kind::index, "nodes"},
     {"skins/*/joints", Kind::array, {}, needed},
@@ -251,6 +252,20 @@ constexpr Rule rules[] = {
     {"animations", Kind::array},
     {"animations/*", Kind::object},
     {"animations/*/name", Kind::string},
+    {"animations/*/channels", Kind::array, {}, needed},
+    {"animations/*/channels/*", Kind::object},
+    {"animations/*/channels/*/sampler", Kind::integer, {}, needed},
+    {"animations/*/channels/*/target", Kind::object, {}, needed},
+    {"animations/*/channels/*/target/node", Kind::index, "nodes"},
+    {"animations/*/channels/*/target/path", Kind::string, {}, needed},
+    {"animations/*/channels/*/target/extensions", Kind::object},
+    {"animations/*/channels/*/target/extensions/KHR_animation_pointer", Kind::object},
+    {"animations/*/channels/*/target/extensions/KHR_animation_pointer/pointer", Kind::string, {}, needed},
+    {"animations/*/samplers", Kind::array, {}, needed},
+    {"animations/*/samplers/*", Kind::object},
+    {"animations/*/samplers/*/input", Kind::index, "accessors", needed},
+    {"animations/*/samplers/*/output", Kind::index, "accessors", needed},
+    {"animations/*/samplers/*/interpolation", Kind::string},
 };
 
 // Where a textureInfo may stand.

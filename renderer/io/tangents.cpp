@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "renderer/math/hash.h"
+#include "renderer/scene/deform.h"
 
 namespace candela {
 namespace {
@@ -211,6 +212,7 @@ void TangentBuilder::write_back() {
     const size_t vertices = primitive_.positions.size();
     std::vector<uint32_t> first_corner(vertices, unset);
     std::unordered_map<uint64_t, uint32_t> split;  // (vertex, corner group) to the appended vertex
+    std::vector<uint32_t> appended_from;
     primitive_.tangents.assign(vertices, Vec4(1, 0, 0, 1));
     const auto append = [](auto& values, uint32_t from) {
         if (!values.empty()) values.push_back(values[from]);
@@ -231,9 +233,16 @@ void TangentBuilder::write_back() {
                 append(primitive_.uv[1], v);
                 append(primitive_.colors, v);
                 primitive_.tangents.push_back(tangents_[corner]);
+                appended_from.push_back(v);
             }
             slot = found->second;
         }
+    }
+    if (primitive_.deformation && !appended_from.empty()) {
+        std::vector<uint32_t> from(vertices);
+        std::iota(from.begin(), from.end(), 0u);
+        from.insert(from.end(), appended_from.begin(), appended_from.end());
+        primitive_.deformation = std::make_shared<const Deformation>(gather_vertices(*primitive_.deformation, from));
     }
 }
 

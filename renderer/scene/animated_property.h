@@ -3,12 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace candela {
 
 struct Scene;
+struct AnimationChannel;
 
 struct AnimatedProperty {
     enum class Owner : uint8_t { node, mesh, material, texture_transform, light, camera };
@@ -23,9 +26,18 @@ struct AnimatedProperty {
     void (*apply)(Scene& scene, uint32_t object, std::span<const float> value) = nullptr;
 };
 
-std::span<const AnimatedProperty> animated_properties();
+// What a pointer names, with the index that stands in it.
+struct PropertyMatch {
+    const AnimatedProperty* property = nullptr;
+    // Of the node, material, …; of a texture transform: the material's. Not checked against any scene.
+    uint32_t object = 0;
+    uint32_t texture_slot = 0;
+};
 
-// By its pointer with *; null where nothing of that name can be animated.
-const AnimatedProperty* find_animated_property(std::string_view pointer);
+// Nothing where a pointer names nothing that can be animated.
+std::optional<PropertyMatch> find_animated_property(std::string_view pointer);
+
+// The pointer of what the channel drives.
+std::string pointer_of(const AnimationChannel& channel, const Scene& scene);
 
 }  // namespace candela

@@ -29,8 +29,7 @@ Mat4 rigid(const Mat4& world_from_node) {
 }
 
 // Depth first in the order of the file, with an own stack: chains of nodes may be longer than the machine's. visit gets
-// a node and whether its parent was visited with true; the children of nodes where it returns false follow all the
-// same.
+// a node and whether it is the root.
 template <typename Visit>
 void walk(const Scene& scene, NodeId root, std::vector<uint8_t>& seen, const Visit& visit) {
     std::vector<NodeId> stack{root};
@@ -49,14 +48,14 @@ void walk(const Scene& scene, NodeId root, std::vector<uint8_t>& seen, const Vis
 bool place_mesh(Scene& scene, NodeId id, const dmat4& world_from_node) {
     const Node& node = scene.nodes[id.value];
     if (node.node_from_instance == nullptr) {
-        scene.instances.push_back({node.mesh, id, Mat4(world_from_node), node.moves, false});
+        scene.instances.push_back({node.mesh, id, Mat4(world_from_node), node.moves || node.reshapes, false});
         return true;
     }
     bool all_finite = true;
     for (const Mat4& node_from_instance : *node.node_from_instance) {
         const Mat4 world_from_instance(world_from_node * dmat4(node_from_instance));
         if (is_finite(world_from_instance)) {
-            scene.instances.push_back({node.mesh, id, world_from_instance, node.moves, false});
+            scene.instances.push_back({node.mesh, id, world_from_instance, node.moves || node.reshapes, false});
         } else {
             all_finite = false;
         }

@@ -28,6 +28,13 @@ Bounds3 bounds_of(const Scene& scene) {
     return bounds;
 }
 
+glm::mat3x2 compose_uv_transform(const UvTransform& transform) {
+    const double c = std::cos(transform.rotation_radians), s = std::sin(transform.rotation_radians);
+    const glm::dvec2 scale = transform.scale;
+    return glm::mat3x2(
+        glm::dmat3x2(c * scale.x, -s * scale.x, s * scale.y, c * scale.y, transform.offset.x, transform.offset.y));
+}
+
 namespace {
 
 uint64_t triangles_of(const Mesh& mesh) {

@@ -250,11 +250,13 @@ struct Node {
     LightId light;
     CameraId camera;
     std::vector<float> morph_weights;  // one for each morph target of its mesh
+    bool has_own_weights = false;      // not those of its mesh
     // EXT_mesh_gpu_instancing: where the node places its mesh; null: once, as the node stands.
     std::shared_ptr<const std::vector<Mat4>> node_from_instance;
     bool visible = true;  // KHR_node_visibility: false hides meshes and lights of the node and of all below it
     bool in_active_scene = false;
-    bool moves = false;  // an animation moves, shows or hides it or one of its ancestors
+    bool moves = false;     // an animation moves, shows or hides it or one of its ancestors
+    bool reshapes = false;  // an animation deforms its mesh
 };
 
 // An equirectangular environment. Direction (x,y,z) reads u = atan2(z,x)/2π + ½ from the left and v = ½ − asin(y)/π
@@ -279,6 +281,21 @@ struct StrokeSummary {
     float width_m = 0.0f;
 };
 
+// The parts of a texture's transform, where an animation drives them (KHR_texture_transform).
+struct UvTransform {
+    glm::dvec2 offset{0.0};
+    double rotation_radians = 0.0;
+    glm::dvec2 scale{1.0};
+};
+struct AnimatedUv {
+    MaterialId material;
+    uint32_t slot = 0;  // which texture of the material (animated_property.h)
+    UvTransform transform;
+};
+// translation · rotation · scale. A positive rotation turns the coordinates counter-clockwise as the picture is seen,
+// where v points down: u' = u cos + v sin, v' = v cos - u sin.
+glm::mat3x2 compose_uv_transform(const UvTransform& transform);
+
 // Copies share meshes, pictures and animations; whoever changes one of these puts another in its place. So equal
 // pointers tell that a mesh has the same shape in two poses.
 struct Scene {
@@ -293,6 +310,7 @@ struct Scene {
     std::vector<FileCamera> file_cameras;
     std::vector<std::shared_ptr<const Skin>> skins;
     std::vector<std::shared_ptr<const Animation>> animations;
+    std::vector<AnimatedUv> animated_uvs;
     std::vector<Node> nodes;
     std::vector<NodeId> roots;             // of the active scene
     std::vector<std::string> scene_names;  // all scenes of the file

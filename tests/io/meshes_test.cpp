@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/scene/animation.h"
 #include "tests/io/document.h"
 
 namespace candela {
@@ -145,22 +144,6 @@ TEST_F(MeshTangents, MissingTextureCoordinatesAreSaid) {
     EXPECT_TRUE(first(load(document)).tangents.empty());
     EXPECT_TRUE(warned("/meshes/0/primitives/0", "has no TEXCOORD_0 for its material's normal texture"))
         << all_warnings();
-}
-
-TEST_F(Meshes, MorphTargetsAndSkinsAreSaidOnce) {
-    Document document = Document::triangle();
-    document.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}, {{"POSITION", 0}}};
-    document.json["nodes"] = {{{"mesh", 0}, {"skin", 0}}, {{"mesh", 0}, {"skin", 0}}};
-    document.json["skins"] = {{{"joints", {0}}}};
-    document.json["animations"] = {{{"name", "walk"}, {"channels", Json::array()}, {"samplers", Json::array()}}};
-    const Scene scene = load(document);
-    EXPECT_EQ(first(scene).positions.at(1), Vec3(1, 0, 0));
-    ASSERT_EQ(scene.animations.size(), 1u);
-    EXPECT_EQ(scene.animations[0]->name, "walk");
-    EXPECT_TRUE(warned("/meshes/0/primitives/0/targets", "morph targets are ignored"));
-    EXPECT_TRUE(warned("/nodes/0/skin", "skins are ignored"));
-    EXPECT_TRUE(warned("/animations", "not played"));
-    EXPECT_EQ(diagnostics_.warnings().size(), 3u) << all_warnings();
 }
 
 }  // namespace
