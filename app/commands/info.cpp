@@ -45,7 +45,7 @@ OrderedJson describe(const Scene& scene, const Diagnostics& diagnostics) {
     out["scene"] = scene.source;
     out["scenes"] = scene.scene_names;
     out["active_scene"] = scene.active_scene;
-    out["counts"] = {{"nodes", scene.nodes.size()},          {"meshes", scene.meshes.size()},
+    out["counts"] = {{"nodes", scene.nodes.size()},          {"meshes", scene.meshes.size() - scene.posed_mesh_count},
                      {"materials", scene.materials.size()},  {"textures", scene.textures.size()},
                      {"images", scene.images.size()},        {"instances", scene.instances.size()},
                      {"cameras", scene.cameras.size()},      {"lights", scene.light_instances.size()},

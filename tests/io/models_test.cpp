@@ -21,8 +21,8 @@ bool has(const Json& list, const std::string& name) {
 // Points and lines are no triangles to the manifest.
 uint64_t surface_triangle_count(const Scene& scene) {
     uint64_t count = 0;
-    for (const auto& mesh : scene.meshes) {
-        for (const Primitive& primitive : mesh->primitives) {
+    for (size_t m = 0; m < scene.meshes.size() - scene.posed_mesh_count; ++m) {
+        for (const Primitive& primitive : scene.meshes[m]->primitives) {
             if (primitive.shape == PrimitiveShape::surface) count += primitive.triangles.size();
         }
     }
