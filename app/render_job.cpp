@@ -108,20 +108,17 @@ Vec2u choose_extent(const RenderOptions& options, const Camera& camera) {
     return {static_cast<uint32_t>(std::clamp(std::lround(aspect * height), 1l, 8192l)), height};
 }
 
-void build_job_world(RenderJob& job, const std::shared_ptr<const Scene>& scene, const RenderOptions& options,
-                     const std::atomic<bool>* cancel) {
+// Calls make(), which builds a world, and books it in the job.
+void make_job_world(RenderJob& job, const std::atomic<bool>* cancel,
+                    const std::function<std::shared_ptr<const World>()>& make) {
     const Clock::time_point build_start = Clock::now();
-    BuildOptions build;
-    build.environment = place_environment(job.environment.get(), options);
-    build.cancel = cancel;
     try {
-        job.world = build_world(scene, build);
+        job.world = make();
     } catch (const AccelError& error) {
         const bool stopped = cancel != nullptr && cancel->load();
         throw CommandError(stopped ? ExitStatus::interrupted : ExitStatus::internal_error,
                            fmt::format("{}: {}", job.scene_path, error.what()));
     }
-    job.warnings.insert(job.warnings.end(), job.world->warnings.begin(), job.world->warnings.end());
     job.build_seconds = seconds_since(build_start);
 }
 
@@ -168,11 +165,12 @@ std::filesystem::path default_scene() {
     return assets_folder() / "cornell_box.glb";
 }
 
-void show_variant(RenderJob& job, const RenderOptions& options, std::optional<uint32_t> variant,
-                  const std::atomic<bool>* cancel) {
+void show_variant(RenderJob& job, std::optional<uint32_t> variant, const std::atomic<bool>* cancel) {
     auto scene = std::make_shared<Scene>(*job.world->scene);
     scene->active_variant = variant;
-    build_job_world(job, scene, options, cancel);
+    BuildOptions build;
+    build.cancel = cancel;
+    make_job_world(job, cancel, [&] { return with_pose(job.world, scene, build); });
     job.request.world = job.world;
 }
 
@@ -204,7 +202,11 @@ RenderJob prepare_render(const RenderOptions& options, const std::function<void(
     job.load_seconds = seconds_since(load_start);
 
     job.environment = choose_environment(options, *scene, job.warnings);
-    build_job_world(job, scene, options, cancel);
+    BuildOptions build;
+    build.environment = place_environment(job.environment.get(), options);
+    build.cancel = cancel;
+    make_job_world(job, cancel, [&] { return build_world(scene, build); });
+    job.warnings.insert(job.warnings.end(), job.world->warnings.begin(), job.world->warnings.end());
     progress("build", 1.0);
 
     // What to render, and how long.

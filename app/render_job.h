@@ -30,10 +30,9 @@ std::filesystem::path default_scene();
 RenderJob prepare_render(const RenderOptions& options, const std::function<void(const char*, double)>& progress,
                          const std::atomic<bool>* cancel);
 
-// Shows the job's scene with the materials of another variant (none: each primitive's own), whose name the options
-// have: a new world, of the same geometry. Throws CommandError.
-void show_variant(RenderJob& job, const RenderOptions& options, std::optional<uint32_t> variant,
-                  const std::atomic<bool>* cancel);
+// Shows the job's scene with the materials of another variant (none: each primitive's own): a new world, of the same
+// geometry. Throws CommandError.
+void show_variant(RenderJob& job, std::optional<uint32_t> variant, const std::atomic<bool>* cancel);
 
 // The environment that the options name. Throws CommandError.
 std::shared_ptr<const Environment> read_environment(const RenderOptions& options);

@@ -127,7 +127,7 @@ void Viewer::start_variant_change(std::optional<uint32_t> variant) {
         [options, variant, job = model_.job](const SceneLoader::Progress& progress, const std::atomic<bool>* cancel) {
             LoadedScene out{options, job};
             progress("variant", 0);
-            show_variant(out.job, options, variant, cancel);
+            show_variant(out.job, variant, cancel);
             return out;
         });
 }

@@ -82,7 +82,9 @@ Hit Accel::intersect(const Ray& ray, uint32_t alpha_seed) const noexcept {
     fill_ray(found.ray, ray);
     found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    embree::intersect(accel.top.get(), query.embree, found);
+    // What is fixed shortens the ray for what is placed.
+    if (accel.fixed_scene != nullptr) embree::intersect(accel.fixed_scene, query.embree, found);
+    if (accel.placed_scene != nullptr) embree::intersect(accel.placed_scene, query.embree, found);
 
     if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
     hit.distance = found.ray.tfar;
@@ -103,9 +105,12 @@ Vec3 Accel::transmittance(const Ray& ray) const noexcept {
     query.direction = ray.direction;
     RTCRay shadow;
     fill_ray(shadow, ray);
-    embree::occluded(accel.top.get(), query.embree, shadow);
     // Embree marks an occluded ray by tfar = -infinity; surfaces that let light pass are only in the product.
-    return shadow.tfar < 0.0f ? Vec3(0) : query.transmittance;
+    for (RTCScene scene : {accel.fixed_scene, accel.placed_scene}) {
+        if (scene != nullptr) embree::occluded(scene, query.embree, shadow);
+        if (shadow.tfar < 0.0f) return Vec3(0);
+    }
+    return query.transmittance;
 }
 
 Accel::Accel(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -119,12 +124,31 @@ std::unique_ptr<Accel> Accel::build(const AccelInput& input, const std::function
     return std::unique_ptr<Accel>(new Accel(std::move(impl)));
 }
 
+std::unique_ptr<Accel> Accel::with_user(const void* opacity_user) const {
+    auto impl = std::make_unique<Impl>(*impl_);
+    impl->opacity_user = opacity_user;
+    impl->work = {};
+    return std::unique_ptr<Accel>(new Accel(std::move(impl)));
+}
+
+std::shared_ptr<const AccelTree> Accel::fixed_tree() const {
+    return impl_->fixed;
+}
+
+std::shared_ptr<const AccelTree> Accel::shape_tree(size_t shape) const {
+    return impl_->shapes.at(shape);
+}
+
 Bounds3 Accel::bounds() const {
     return impl_->bounds;
 }
 
+const AccelWork& Accel::work() const {
+    return impl_->work;
+}
+
 uint64_t Accel::memory_bytes() const {
-    return static_cast<uint64_t>(std::max<int64_t>(impl_->monitor.bytes.load(std::memory_order_relaxed), 0));
+    return impl_->family->memory_bytes();
 }
 
 }  // namespace candela

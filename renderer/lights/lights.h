@@ -3,7 +3,7 @@
 // that picks one of them. Directions point from the receiver to the light; pdfs are per solid angle at the receiver.
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "renderer/lights/environment_light.h"
@@ -64,7 +64,7 @@ struct Lights {
     std::vector<PlacedLight> punctual;
     std::vector<EmissiveTriangle> triangles;
     std::vector<EmissiveCells> cells;  // by emissive surface and its triangles, as Surface::first_emissive says
-    std::optional<EnvironmentLight> environment;
+    std::shared_ptr<const EnvironmentLight> environment;  // null: black
 
     // Alias table over [punctual…, triangles…], by estimated power, and the probability of choosing the environment
     // first.

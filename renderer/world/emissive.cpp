@@ -60,12 +60,57 @@ EmissiveTriangle cut_cell(const EmissiveTriangle& whole, const Vec2& corner, flo
     return cell;
 }
 
+// Its vertices in the order that makes edge1 × edge2 point to the front.
+Vec3u front_order(const World& world, const Surface& surface, uint32_t triangle) {
+    Vec3u index = surface.primitive->triangles[triangle];
+    if (world.transforms[surface.transform].flips) std::swap(index.y, index.z);
+    return index;
+}
+
+// Without what it shines.
+EmissiveTriangle place_triangle(const World& world, uint32_t surface_index, const Surface& surface, uint32_t triangle) {
+    const Vec3u index = front_order(world, surface, triangle);
+    Vec3 p[3];
+    for (int i = 0; i < 3; ++i) {
+        p[i] = surface.positions[index[i]];
+        if (!surface.positions_in_world)
+            p[i] = world.transforms[surface.transform].world_from_object * Vec4(p[i], 1.0f);
+    }
+    EmissiveTriangle out;
+    out.p0 = p[0];
+    out.edge1 = p[1] - p[0];
+    out.edge2 = p[2] - p[0];
+    out.surface = surface_index;
+    out.triangle = triangle;
+    out.two_sided = world.materials[surface.material].double_sided;
+    return out;
+}
+
+// Whether two poses of a surface shine alike at the same (u, v) of the same triangles.
+bool shine_alike(const World& a, const Surface& at_a, const World& b, const Surface& at_b) {
+    const Material& x = a.materials[at_a.material];
+    const Material& y = b.materials[at_b.material];
+    if (x.emissive_factor != y.emissive_factor || x.emissive_strength != y.emissive_strength ||
+        x.emissive.texture != y.emissive.texture || x.emissive.uv_set != y.emissive.uv_set ||
+        x.emissive.uv_transform != y.emissive.uv_transform)
+        return false;
+    if (a.transforms[at_a.transform].flips != b.transforms[at_b.transform].flips) return false;
+    if (x.emissive.valid()) {
+        const uint32_t texture = x.emissive.texture.value;
+        if (texture >= a.textures.size() || texture >= b.textures.size() ||
+            a.textures[texture].pixels != b.textures[texture].pixels)
+            return false;
+    }
+    if (at_a.primitive == at_b.primitive) return true;
+    const uint32_t set = x.emissive.uv_set & 1u;
+    return at_a.primitive->triangles == at_b.primitive->triangles && at_a.primitive->uv[set] == at_b.primitive->uv[set];
+}
+
 }  // namespace
 
 void append_emissive_triangles(const World& world, uint32_t surface_index, Surface& surface, Lights& out) {
     const Primitive& primitive = *surface.primitive;
     const Material& material = world.materials[surface.material];
-    const SurfaceTransform& transform = world.transforms[surface.transform];
     const Vec3 factor = material.emissive_factor * material.emissive_strength;
     const std::vector<Vec2>* uv = nullptr;
     if (material.emissive.valid() && !primitive.uv[material.emissive.uv_set & 1u].empty()) {
@@ -76,20 +121,7 @@ void append_emissive_triangles(const World& world, uint32_t surface_index, Surfa
     out.cells.reserve(out.cells.size() + primitive.triangles.size());
     out.triangles.reserve(out.triangles.size() + primitive.triangles.size());
     for (uint32_t t = 0; t < primitive.triangles.size(); ++t) {
-        Vec3u index = primitive.triangles[t];
-        if (transform.flips) std::swap(index.y, index.z);
-        Vec3 p[3];
-        for (int i = 0; i < 3; ++i) {
-            p[i] = surface.positions[index[i]];
-            if (!surface.positions_in_world) p[i] = transform.world_from_object * Vec4(p[i], 1.0f);
-        }
-        EmissiveTriangle whole;
-        whole.p0 = p[0];
-        whole.edge1 = p[1] - p[0];
-        whole.edge2 = p[2] - p[0];
-        whole.surface = surface_index;
-        whole.triangle = t;
-        whole.two_sided = material.double_sided;
+        EmissiveTriangle whole = place_triangle(world, surface_index, surface, t);
         whole.mean_radiance = luminance(factor);
         EmissiveCells cells{static_cast<uint32_t>(out.triangles.size()), 1};
         if (uv == nullptr) {
@@ -101,6 +133,7 @@ void append_emissive_triangles(const World& world, uint32_t surface_index, Surfa
         // A triangle must stay reachable as long as a texel of it may shine: the grid can miss some, so its choice
         // never falls below a hundredth of the factor's unless the grid saw every texel black.
         const TextureView& texture = world.textures[material.emissive.texture.value];
+        const Vec3u index = front_order(world, surface, t);
         const Vec2 corners[3] = {(*uv)[index.x], (*uv)[index.y], (*uv)[index.z]};
         const TextureMean mean = mean_over_triangle(texture, material.emissive, factor, corners);
         whole.mean_radiance = std::max(mean.mean, 0.01f * std::max(mean.largest, 0.01f * luminance(factor)));
@@ -135,6 +168,30 @@ void append_emissive_triangles(const World& world, uint32_t surface_index, Surfa
             }
         }
     }
+}
+
+bool move_emissive_triangles(const World& before, const World& world, uint32_t surface_index, Surface& surface,
+                             Lights& out) {
+    // How finely triangles are cut depends on how many cells there are before them.
+    if (surface_index >= before.surfaces.size()) return false;
+    const Surface& old = before.surfaces[surface_index];
+    const Lights& lights = before.lights;
+    if (old.first_emissive != out.cells.size() || old.first_emissive >= lights.cells.size() ||
+        lights.cells[old.first_emissive].first != out.triangles.size() || !shine_alike(before, old, world, surface))
+        return false;
+
+    surface.first_emissive = old.first_emissive;
+    for (uint32_t t = 0; t < surface.primitive->triangles.size(); ++t) {
+        const EmissiveTriangle whole = place_triangle(world, surface_index, surface, t);
+        const EmissiveCells& cells = lights.cells[old.first_emissive + t];
+        out.cells.push_back(cells);
+        for (uint32_t i = 0; i < cells.cells_per_edge * cells.cells_per_edge; ++i) {
+            const EmissiveTriangle& shining = lights.triangles[cells.first + i];
+            out.triangles.push_back(cells.cells_per_edge == 1 ? whole : cut_cell(whole, shining.corner, shining.scale));
+            out.triangles.back().mean_radiance = shining.mean_radiance;
+        }
+    }
+    return true;
 }
 
 }  // namespace candela

@@ -12,4 +12,9 @@ namespace candela {
 // flips, edge1 leads to the third vertex and edge2 to the second.
 void append_emissive_triangles(const World& world, uint32_t surface_index, Surface& surface, Lights& out);
 
+// The same, to the bit, from those of another pose, if there the surface shines alike: only moves them, without looking
+// at textures again. False: nothing was done.
+bool move_emissive_triangles(const World& before, const World& world, uint32_t surface_index, Surface& surface,
+                             Lights& out);
+
 }  // namespace candela

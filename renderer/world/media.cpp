@@ -28,8 +28,51 @@ std::string body_name(const World& world, const Surface& surface) {
     return name.empty() ? "/nodes/" + std::to_string(node.value) : "\"" + name + "\"";
 }
 
+}  // namespace
+
+void gather_media(World& world) {
+    // One body for each placed material that has an inside.
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> known;
+    std::vector<Bounds3> bounds;
+    for (Surface& surface : world.surfaces) {
+        const Material& material = world.materials[surface.material];
+        if (!material.has_volume()) continue;
+        const auto [entry, is_new] =
+            known.emplace(std::pair{surface.instance, surface.material}, static_cast<uint32_t>(world.media.size()));
+        if (is_new) {
+            Medium medium;
+            medium.ior = material.ior > 0.0f ? material.ior : 1e6f;
+            medium.dispersion = material.volume.dispersion;
+            medium.absorption = absorption_of(material.volume);
+            world.media.push_back(medium);
+            bounds.emplace_back();
+        }
+        surface.medium = entry->second;
+        for (uint32_t v = 0; v < surface.primitive->positions.size(); ++v)
+            bounds[surface.medium].extend(world_position(world, surface, v));
+    }
+
+    // The smaller body has the higher rank.
+    std::vector<uint32_t> order(world.media.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto size_of = [&](uint32_t i) {
+        const Vec3 d = bounds[i].extent();
+        return static_cast<double>(d.x) * static_cast<double>(d.y) * static_cast<double>(d.z);
+    };
+    std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return size_of(a) > size_of(b); });
+    for (uint32_t rank = 0; rank < order.size(); ++rank)
+        world.media[order[rank]].rank = rank;
+}
+
 // Looks for a triangle of one body that lies on a triangle of another, corner on corner.
 void warn_of_shared_faces(World& world) {
+    // Worth its time only where bodies are few triangles and more than one.
+    constexpr size_t most_triangles = 1u << 20;
+    size_t triangles = 0;
+    for (const Surface& surface : world.surfaces) {
+        if (surface.medium != invalid_index) triangles += surface.primitive->triangles.size();
+    }
+    if (world.media.size() < 2 || triangles > most_triangles) return;
     const float grid = std::max(world.bounds.radius(), 1e-30f) * 1e-6f;
     using Corner = std::array<int64_t, 3>;
     std::map<std::array<Corner, 3>, uint32_t> owners;  // triangle → surface
@@ -54,48 +97,6 @@ void warn_of_shared_faces(World& world) {
                 " share faces, so light may cross them in either order: let one overlap the other");
         }
     }
-}
-
-}  // namespace
-
-void gather_media(World& world) {
-    // One body for each placed material that has an inside.
-    std::map<std::pair<uint32_t, uint32_t>, uint32_t> known;
-    std::vector<Bounds3> bounds;
-    size_t triangles = 0;
-    for (Surface& surface : world.surfaces) {
-        const Material& material = world.materials[surface.material];
-        if (!material.has_volume()) continue;
-        const auto [entry, is_new] =
-            known.emplace(std::pair{surface.instance, surface.material}, static_cast<uint32_t>(world.media.size()));
-        if (is_new) {
-            Medium medium;
-            medium.ior = material.ior > 0.0f ? material.ior : 1e6f;
-            medium.dispersion = material.volume.dispersion;
-            medium.absorption = absorption_of(material.volume);
-            world.media.push_back(medium);
-            bounds.emplace_back();
-        }
-        surface.medium = entry->second;
-        triangles += surface.primitive->triangles.size();
-        for (uint32_t v = 0; v < surface.primitive->positions.size(); ++v)
-            bounds[surface.medium].extend(world_position(world, surface, v));
-    }
-
-    // The smaller body has the higher rank.
-    std::vector<uint32_t> order(world.media.size());
-    std::iota(order.begin(), order.end(), 0u);
-    const auto size_of = [&](uint32_t i) {
-        const Vec3 d = bounds[i].extent();
-        return static_cast<double>(d.x) * static_cast<double>(d.y) * static_cast<double>(d.z);
-    };
-    std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return size_of(a) > size_of(b); });
-    for (uint32_t rank = 0; rank < order.size(); ++rank)
-        world.media[order[rank]].rank = rank;
-
-    // Worth its time only where bodies are few triangles and more than one.
-    constexpr size_t most_triangles = 1u << 20;
-    if (world.media.size() > 1 && triangles <= most_triangles) warn_of_shared_faces(world);
 }
 
 }  // namespace candela

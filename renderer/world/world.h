@@ -44,6 +44,21 @@ struct SurfaceTransform {
     bool flips = false;            // negative determinant: the winding is reversed, as glTF demands
 };
 
+// The vertices of a mesh as the accelerator traverses them: as modelled, or moved to world space.
+struct MeshVertices {
+    std::shared_ptr<const Mesh> mesh;
+    std::optional<Mat4> world_from_object;     // what moved them
+    std::vector<std::vector<Vec3>> positions;  // of each primitive, padded
+    bool finite = true;                        // all of them
+};
+
+// What lies under one tree of the accelerator.
+struct WorldShape {
+    std::vector<std::shared_ptr<const MeshVertices>> parts;  // one, but for what is fixed
+    std::vector<uint8_t> has_opacity;                        // by primitive of all parts
+    std::shared_ptr<const MeshVertices> rest;                // of a mesh that deforms: what the tree is laid out for
+};
+
 struct World {
     std::shared_ptr<const Scene> scene;
     std::vector<Surface> surfaces;
@@ -52,11 +67,13 @@ struct World {
     std::vector<TextureView> textures;
     std::vector<Medium> media;
     Lights lights;
-    // What the accelerator traverses: world-space vertices of meshes placed once, object-space ones of shared meshes.
-    std::vector<std::vector<Vec3>> positions;
-    std::shared_ptr<const Accel> accel;
-    // Set when another world built the accelerator, whose opacity function looks at that world.
-    std::shared_ptr<const World> geometry_owner;
+    // What the accelerator traverses: meshes placed once that do not move, in world space, and those that are placed
+    // several times, move or deform. Shapes stand in the order of the accelerator's; of those that nothing shows in
+    // this pose there are no surfaces.
+    WorldShape fixed;
+    std::vector<WorldShape> shapes;
+    std::vector<uint8_t> image_alpha;    // AlphaKnown of each image
+    std::shared_ptr<const Accel> accel;  // its functions look at this world
     Bounds3 bounds;
     uint64_t triangle_count = 0;        // as placed
     std::vector<std::string> warnings;  // dropped instances and the like
@@ -69,9 +86,17 @@ struct BuildOptions {
     const std::atomic<bool>* cancel = nullptr;  // set: the build ends soon with AccelError "cancelled"
 };
 
-// Meshes placed once are moved to world space; meshes placed several times share one BVH. Instances whose transform is
-// not finite, or collapses the mesh to a line or a point, are dropped with a warning. Throws AccelError.
+// Meshes placed once that no animation moves are placed in world space under one tree; others are instances of trees of
+// their own. Instances whose transform is not finite, or collapses the mesh to a line or a point, are dropped with a
+// warning. Throws AccelError.
 std::shared_ptr<const World> build_world(std::shared_ptr<const Scene> scene, const BuildOptions& options = {});
+
+// The world of another pose of its scene, under the same environment: what rays see is that of build_world to the bit,
+// but only trees of meshes that deform are fitted anew, and where things moved the one over the instances. Shares the
+// rest with the world, which stays as it is. options.environment is not looked at; bodies that share faces are not
+// looked for again. Throws AccelError.
+std::shared_ptr<const World> with_pose(const std::shared_ptr<const World>& world, std::shared_ptr<const Scene> posed,
+                                       const BuildOptions& options = {});
 
 // A world that shares everything with another but the environment; nothing of the geometry is built again.
 std::shared_ptr<const World> with_environment(const std::shared_ptr<const World>& world,

@@ -1,74 +1,21 @@
 // SPDX-License-Identifier: MIT
 // Hits against brute force, opacity inside the traversal, and rays that are none.
-#include "renderer/accel/accel.h"
-
-#include <random>
+#include "tests/accel/soup.h"
 
 namespace candela {
 namespace {
 
-class Random {
-  public:
-    float uniform() { return static_cast<float>(engine_() >> 8) * 0x1p-24f; }
-    Vec3 in_box(float half) { return half * (2.0f * Vec3(uniform(), uniform(), uniform()) - 1.0f); }
-    Vec3 direction() {
-        for (;;) {
-            const Vec3 v = in_box(1);
-            const float length = glm::length(v);
-            if (length > 0.1f && length < 1) return v / length;
-        }
-    }
-
-  private:
-    std::mt19937 engine_{23};
-};
-
-// Triangles with room behind the last position, as Accel wants it.
-struct Soup {
-    std::vector<Vec3> positions;
-    std::vector<Vec3u> triangles;
-
-    Soup(Random& random, int count, float size) {
-        for (int i = 0; i < count; ++i) {
-            const Vec3 middle = random.in_box(1);
-            for (int corner = 0; corner < 3; ++corner)
-                positions.push_back(middle + random.in_box(size));
-            triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
-        }
-        positions.resize(positions.size() + 2);
-    }
-    AccelGeometry geometry(uint32_t surface, bool has_opacity = false) const {
-        return {std::span(positions).first(positions.size() - 2), triangles, has_opacity, surface};
-    }
-};
-
-// Möller and Trumbore 1997, in double precision.
-void hit_triangle(const Ray& ray, const glm::dvec3& p0, const glm::dvec3& p1, const glm::dvec3& p2, uint32_t surface,
-                  uint32_t triangle, Hit& nearest) {
-    const glm::dvec3 d(ray.direction), e1 = p1 - p0, e2 = p2 - p0, h = glm::cross(d, e2);
-    const double determinant = glm::dot(e1, h);
-    if (determinant == 0) return;
-    const glm::dvec3 s = glm::dvec3(ray.origin) - p0, q = glm::cross(s, e1);
-    const double u = glm::dot(s, h) / determinant, v = glm::dot(d, q) / determinant, t = glm::dot(e2, q) / determinant;
-    if (u < 0 || v < 0 || u + v > 1 || t <= 0 || t >= static_cast<double>(nearest.distance)) return;
-    nearest = {static_cast<float>(t), static_cast<float>(u), static_cast<float>(v), surface, triangle};
-}
-
-void hit_soup(const Ray& ray, const Soup& soup, const Mat4& transform, uint32_t surface, Hit& nearest) {
-    for (uint32_t i = 0; i < soup.triangles.size(); ++i) {
-        const auto corner = [&](int k) {
-            return glm::dvec3(glm::dmat4(transform) * glm::dvec4(soup.positions[soup.triangles[i][k]], 1));
-        };
-        hit_triangle(ray, corner(0), corner(1), corner(2), surface, i, nearest);
-    }
-}
+using test::hit_soup;
+using test::Random;
+using test::Soup;
 
 TEST(Accel, HitsAreThoseOfBruteForce) {
     Random random;
     const Soup world(random, 150, 0.3f), shared(random, 60, 0.2f);
     AccelInput input;
-    input.world_geometry = {world.geometry(0)};
-    input.groups = {{shared.geometry(0)}};
+    input.fixed.geometries = {world.geometry()};
+    input.fixed_surfaces = {0};
+    input.shapes.emplace_back().geometries = {shared.geometry()};
     // A mirror image, a squeezed and a turned one.
     const Mat4 mirrored(Vec4(-1, 0, 0, 0), Vec4(0, 1, 0, 0), Vec4(0, 0, 1, 0), Vec4(1.5f, 0, 0, 1));
     const Mat4 squeezed(Vec4(0, 0.3f, 0, 0), Vec4(2, 0, 0, 0), Vec4(0, 0, 1, 0), Vec4(-1, 0.5f, 0, 1));
@@ -115,8 +62,10 @@ std::unique_ptr<Accel> make_sheets(const float* opacities, std::vector<std::vect
         const auto z = static_cast<float>(i + 1);
         positions.push_back({{-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z}, {}, {}});
     }
-    for (uint32_t i = 0; i < 3; ++i)
-        input.world_geometry.push_back({std::span(positions[i]).first(4), triangles, true, i});
+    for (uint32_t i = 0; i < 3; ++i) {
+        input.fixed.geometries.push_back({std::span(positions[i]).first(4), triangles, true, {}});
+        input.fixed_surfaces.push_back(i);
+    }
     input.opacity = opacity_of;
     input.opacity_user = opacities;
     return Accel::build(input);
@@ -164,7 +113,8 @@ TEST(Accel, RaysThatAreNotFiniteHitNothing) {
     Random random;
     const Soup soup(random, 20, 2);
     AccelInput input;
-    input.world_geometry = {soup.geometry(0)};
+    input.fixed.geometries = {soup.geometry()};
+    input.fixed_surfaces = {0};
     const auto accel = Accel::build(input);
     const float nan = std::numeric_limits<float>::quiet_NaN();
     for (const float bad : {nan, infinity, -infinity}) {
@@ -188,7 +138,8 @@ TEST(Accel, ACancelledBuildSaysSo) {
     Random random;
     const Soup soup(random, 20000, 0.1f);
     AccelInput input;
-    input.world_geometry = {soup.geometry(0)};
+    input.fixed.geometries = {soup.geometry()};
+    input.fixed_surfaces = {0};
     const std::atomic<bool> cancel{true};
     EXPECT_THROW(Accel::build(input, {}, &cancel), AccelError);
 }

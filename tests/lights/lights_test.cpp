@@ -141,7 +141,7 @@ TEST(Lights, AMixtureCoversTheWholeSolidAngle) {
                                  make_triangle({-2, -1, 0}, {-2, 1, 0}, {-2, 0, 1}, 2)});
     Environment sky;
     sky.radiance = ImageRgb32f(1, 1, Vec3(1));
-    lights.environment.emplace(sky);
+    lights.environment = std::make_shared<const EnvironmentLight>(sky);
     finish_lights(lights, {{-5, -5, -5}, {5, 5, 5}});
     EXPECT_GT(lights.environment_probability, 0);
     EXPECT_LT(lights.environment_probability, 1);
