@@ -14,9 +14,11 @@ struct PathState {
     Vec3 radiance{0};    // gathered so far
     float alpha = 1;
     Sampler sampler;
-    MediumSet media;     // what the segment runs through
-    Vec3 vertex{0};      // where ray.direction was drawn: thin glass and hidden boundaries only move the ray's start
-    float bsdf_pdf = 0;  // with which it was drawn, per solid angle
+    MediumSet media;  // what the segment runs through
+    // Where ray.direction was drawn, as the light sampler saw it: thin glass and hidden boundaries only move the ray's
+    // start.
+    LightReceiver vertex;
+    float bsdf_pdf = 0;       // with which it was drawn, per solid angle
     float wavelength_nm = 0;  // of a path that went through dispersive glass; 0: all
     float eta_scale = 1;      // product of squared relative indices, taken out of the roulette's decision
     uint32_t depth = 0;       // scattering events so far

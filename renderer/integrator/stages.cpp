@@ -144,10 +144,11 @@ Ray shadow_ray(const World& world, const SurfacePoint& point, const LightSample&
 
 // Next-event estimation: one light, weighted against the chance that a BSDF sample finds it.
 ShadowRequest plan_connection(const World& world, const IntegratorSettings& settings, const SurfacePoint& point,
-                              const Boundary& boundary, const Bsdf& bsdf, const BsdfStack& stack, const Vec3& wo,
-                              float u_pick, const Vec2& u, const PathState& path) {
+                              const LightReceiver& receiver, const Boundary& boundary, const Bsdf& bsdf,
+                              const BsdfStack& stack, const Vec3& wo, float u_pick, const Vec2& u,
+                              const PathState& path) {
     ShadowRequest request;
-    const LightSample light = sample_light(world.lights, point.position, u_pick, u);
+    const LightSample light = sample_light(world.lights, receiver, u_pick, u);
     if (!(light.pdf > 0.0f)) return request;
     if (settings.estimator == Estimator::bsdf && !light.is_delta) return request;
     const Vec3 wi = point.shading.local_from_world(light.wi);
@@ -230,7 +231,7 @@ ShadowRequest shade(const World& world, const IntegratorSettings& settings, cons
             const uint32_t cell = world.lights.cells[first_emissive + point.triangle].index_at(flips ? hit.v : hit.u,
                                                                                                flips ? hit.u : hit.v);
             light_pdf = triangle_light_pdf(world.lights, cell, path.vertex, path.ray.direction,
-                                           glm::length(point.position - path.vertex));
+                                           glm::length(point.position - path.vertex.position));
         }
         const float weight = found_light_weight(settings, path, light_pdf);
         if (weight > 0.0f) gather(settings, path, weight * material.emission, path.depth, path.radiance);
@@ -249,9 +250,10 @@ ShadowRequest shade(const World& world, const IntegratorSettings& settings, cons
         return request;
     }
     const BsdfStack stack = make_stack(material.bsdf, wo);
+    const LightReceiver receiver{point.position, point.shading.normal, material.bsdf.transmits()};
     if (may_scatter && !world.lights.empty()) {
-        request =
-            plan_connection(world, settings, point, boundary, material.bsdf, stack, wo, u_choices.x, u_light, path);
+        request = plan_connection(world, settings, point, receiver, boundary, material.bsdf, stack, wo, u_choices.x,
+                                  u_light, path);
     }
 
     // Draw the next direction. Going straight through thin glass is no scattering: sampled lights shine through it too.
@@ -272,7 +274,7 @@ ShadowRequest shade(const World& world, const IntegratorSettings& settings, cons
         path.depth += 1;
         path.segments += 1;
         path.media = transmitted ? boundary.far : boundary.near;
-        path.vertex = point.position;
+        path.vertex = receiver;
         path.ray.origin = offset_ray_origin(
             point.position, transmitted ? -point.geometric_normal : point.geometric_normal, point.error_m);
         path.ray.direction = glm::normalize(wi);

@@ -24,22 +24,58 @@ float spot_attenuation(const PlacedLight& light, const Vec3& wi) {
     return attenuation * attenuation;
 }
 
-float power_of(const PlacedLight& light, float scene_radius) {
-    const float intensity = luminance(light.intensity);
-    switch (light.kind) {
-        case LightKind::point:
-            return 4.0f * pi * intensity;
-        case LightKind::spot:
-            return 2.0f * pi * (1.0f - 0.5f * (light.cos_inner + light.cos_outer)) * intensity;
-        case LightKind::directional:
-            return pi * scene_radius * scene_radius * intensity;
+LightBounds bounds_of(const PlacedLight& light) {
+    LightBounds out;
+    out.box.extend(light.position);
+    out.axis = light.direction;
+    out.intensity = luminance(light.intensity);
+    if (light.kind == LightKind::point) {
+        out.cos_normals = -1.0f;
+    } else {
+        const float inner = std::acos(std::clamp(light.cos_inner, -1.0f, 1.0f));
+        const float outer = std::acos(std::clamp(light.cos_outer, -1.0f, 1.0f));
+        out.cos_normals = light.cos_inner;
+        // A little beyond the edge, so that rounding cuts nothing off.
+        out.cos_emission = std::cos(std::min(std::max(outer - inner, 0.0f) + 1e-3f, pi));
     }
-    return 0.0f;
+    return out;
 }
 
-float power_of(const EmissiveTriangle& light) {
-    const float area = 0.5f * glm::length(glm::cross(light.edge1, light.edge2));
-    return pi * area * light.mean_radiance * (light.two_sided ? 2.0f : 1.0f);
+LightBounds bounds_of(const EmissiveTriangle& light) {
+    LightBounds out;
+    for (const Vec3& corner : {light.p0, light.p0 + light.edge1, light.p0 + light.edge2})
+        out.box.extend(corner);
+    const Vec3 cross = glm::cross(light.edge1, light.edge2);
+    const float doubled_area = glm::length(cross);
+    if (!(doubled_area > 0.0f)) return out;
+    out.axis = cross / doubled_area;
+    out.intensity = 0.5f * doubled_area * light.mean_radiance;
+    out.two_sided = light.two_sided;
+    return out;
+}
+
+// Flux of the lights with a place, all kinds in one measure.
+double placed_power(const Lights& lights) {
+    double sum = 0;
+    const auto add = [&](float power) {
+        sum += std::isfinite(power) && power > 0.0f ? static_cast<double>(power) : 0.0;
+    };
+    for (const PlacedLight& light : lights.punctual) {
+        const float intensity = luminance(light.intensity);
+        if (light.kind == LightKind::point) add(4.0f * pi * intensity);
+        if (light.kind == LightKind::spot) {
+            add(2.0f * pi * (1.0f - 0.5f * (light.cos_inner + light.cos_outer)) * intensity);
+        }
+    }
+    for (const EmissiveTriangle& light : lights.triangles)
+        add(pi * bounds_of(light).intensity * (light.two_sided ? 2.0f : 1.0f));
+    return sum;
+}
+
+// The probability of one group of lights beside another, by the flux each may bring, but so that neither starves.
+float share_of(double power, double other) {
+    if (!(power > 0)) return 0.0f;
+    return other > 0 ? static_cast<float>(std::clamp(power / (power + other), 0.2, 0.8)) : 1.0f;
 }
 
 LightSample sample_punctual(const PlacedLight& light, const Vec3& from, float probability) {
@@ -129,32 +165,38 @@ uint32_t EmissiveCells::index_at(float u, float v) const {
 }
 
 void finish_lights(Lights& lights, const Bounds3& scene_bounds) {
-    const float radius = std::max(scene_bounds.radius(), 1e-3f);
-    std::vector<float> powers;
-    powers.reserve(lights.punctual.size() + lights.triangles.size());
-    double local = 0;
+    std::vector<LightBounds> bounds;
+    bounds.reserve(lights.punctual.size() + lights.triangles.size());
     for (const PlacedLight& light : lights.punctual)
-        powers.push_back(power_of(light, radius));
+        bounds.push_back(light.kind == LightKind::directional ? LightBounds{} : bounds_of(light));
     for (const EmissiveTriangle& light : lights.triangles)
-        powers.push_back(power_of(light));
-    for (float& power : powers) {
-        if (!std::isfinite(power) || power < 0.0f) power = 0.0f;
-        local += static_cast<double>(power);
-    }
-    lights.local = AliasTable(powers);
-
-    // Share the choice between environment and local lights by the flux each may bring to the scene, but starve
-    // neither.
-    lights.environment_probability = 0.0f;
-    if (!lights.environment) return;
-    lights.environment_probability = 1.0f;
-    if (local > 0) {
-        const double sky = 4.0 * static_cast<double>(pi * pi * radius * radius * lights.environment->mean_luminance());
-        lights.environment_probability = static_cast<float>(sky > 0 ? std::clamp(sky / (sky + local), 0.2, 0.8) : 0.0);
-    }
+        bounds.push_back(bounds_of(light));
+    lights.placed = std::make_shared<const LightTree>(bounds);
+    weigh_lights(lights, scene_bounds);
 }
 
-LightSample sample_light(const Lights& lights, const Vec3& from, float u_pick, const Vec2& u) noexcept {
+void weigh_lights(Lights& lights, const Bounds3& scene_bounds) {
+    // What reaches the scene's sphere from far away, against what its lamps send out.
+    const double radius = std::max(static_cast<double>(scene_bounds.radius()), 1e-3);
+    std::vector<float> irradiance(lights.punctual.size(), 0.0f);
+    double directional = 0;
+    for (size_t i = 0; i < lights.punctual.size(); ++i) {
+        if (lights.punctual[i].kind != LightKind::directional) continue;
+        const float value = luminance(lights.punctual[i].intensity);
+        irradiance[i] = std::isfinite(value) && value > 0.0f ? value : 0.0f;
+        directional += static_cast<double>(pi * irradiance[i]) * radius * radius;
+    }
+    const double placed = placed_power(lights);
+    lights.directional = AliasTable(irradiance);
+    lights.directional_probability = share_of(directional, placed);
+    lights.environment_probability = 0.0f;
+    if (!lights.environment) return;
+    const double sky = 4.0 * static_cast<double>(pi * pi * lights.environment->mean_luminance()) * radius * radius;
+    lights.environment_probability = directional + placed > 0 ? share_of(sky, directional + placed) : 1.0f;
+}
+
+LightSample sample_light(const Lights& lights, const LightReceiver& receiver, float u_pick, const Vec2& u) noexcept {
+    // Environment, directional lights or one with a place; what is left of u_pick is uniform again.
     const float p_environment = lights.environment_probability;
     if (u_pick < p_environment) {
         LightSample out;
@@ -165,28 +207,42 @@ LightSample sample_light(const Lights& lights, const Vec3& from, float u_pick, c
         out.weight = lights.environment->radiance(out.wi) / out.pdf;
         return out;
     }
-    if (lights.local.size() == 0) return {};
-    const AliasTable::Choice choice = lights.local.sample((u_pick - p_environment) / (1.0f - p_environment));
-    const float probability = choice.probability * (1.0f - p_environment);
+    float u_rest = (u_pick - p_environment) / (1.0f - p_environment);
+    const float p_directional = lights.directional_probability;
+    if (u_rest < p_directional) {
+        const AliasTable::Choice choice =
+            lights.directional.sample(std::min(u_rest / p_directional, one_minus_epsilon));
+        const float probability = choice.probability * (1.0f - p_environment) * p_directional;
+        return probability > 0.0f ? sample_punctual(lights.punctual[choice.index], receiver.position, probability)
+                                  : LightSample{};
+    }
+    if (!lights.placed) return {};
+    u_rest = std::min((u_rest - p_directional) / (1.0f - p_directional), one_minus_epsilon);
+    const LightTree::Choice choice = lights.placed->sample(receiver, u_rest);
+    const float probability = choice.probability * (1.0f - p_environment) * (1.0f - p_directional);
     if (!(probability > 0.0f)) return {};
-    if (choice.index < lights.punctual.size()) return sample_punctual(lights.punctual[choice.index], from, probability);
+    if (choice.index < lights.punctual.size()) {
+        return sample_punctual(lights.punctual[choice.index], receiver.position, probability);
+    }
     const auto emissive = static_cast<uint32_t>(choice.index - lights.punctual.size());
-    LightSample out = sample_triangle_light(lights.triangles[emissive], from, u, probability);
+    LightSample out = sample_triangle_light(lights.triangles[emissive], receiver.position, u, probability);
     out.emissive = emissive;
     return out;
 }
 
-float triangle_light_pdf(const Lights& lights, uint32_t emissive_index, const Vec3& from, const Vec3& wi,
+float triangle_light_pdf(const Lights& lights, uint32_t emissive_index, const LightReceiver& receiver, const Vec3& wi,
                          float distance) noexcept {
     const EmissiveTriangle& light = lights.triangles[emissive_index];
-    const float probability = (1.0f - lights.environment_probability) *
-                              lights.local.probability(static_cast<uint32_t>(lights.punctual.size()) + emissive_index);
     const Vec3 cross = glm::cross(light.edge1, light.edge2);
     const float doubled_area = glm::length(cross);
-    if (!(probability > 0.0f) || !(doubled_area > 0.0f)) return 0.0f;
+    if (!(doubled_area > 0.0f) || !lights.placed) return 0.0f;
     const float cosine = emitting_cosine(light, cross / doubled_area, wi);
     if (!(cosine > 0.0f)) return 0.0f;
-    const SphericalTriangle seen(from, light.p0, light.edge1, light.edge2);
+    const auto index = static_cast<uint32_t>(lights.punctual.size()) + emissive_index;
+    const float probability = (1.0f - lights.environment_probability) * (1.0f - lights.directional_probability) *
+                              lights.placed->probability(index, receiver);
+    if (!(probability > 0.0f)) return 0.0f;
+    const SphericalTriangle seen(receiver.position, light.p0, light.edge1, light.edge2);
     if (sampled_by_solid_angle(seen)) return probability * static_cast<float>(1.0 / seen.solid_angle);
     return probability * distance * distance / (cosine * 0.5f * doubled_area);
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderer/lights/environment_light.h"
+#include "renderer/lights/light_tree.h"
 #include "renderer/math/bounds.h"
 #include "renderer/math/math.h"
 #include "renderer/sampling/distribution.h"
@@ -23,7 +24,7 @@ struct EmissiveTriangle {
     float scale = 1;
     uint32_t surface = 0;     // World's placed primitive
     uint32_t triangle = 0;    // index in its primitive
-    float mean_radiance = 0;  // mean luminance of the emission over the cell, for choosing
+    float mean_radiance = 0;  // mean luminance of the emission over the cell
     bool two_sided = false;
 };
 
@@ -66,24 +67,28 @@ struct Lights {
     std::vector<EmissiveCells> cells;  // by emissive surface and its triangles, as Surface::first_emissive says
     std::shared_ptr<const EnvironmentLight> environment;  // null: black
 
-    // Alias table over [punctual…, triangles…], by estimated power, and the probability of choosing the environment
-    // first.
-    AliasTable local;
+    // How one is chosen: first between the environment, the directional lights and all that have a place; then among
+    // the directional ones by irradiance, or down the tree over [punctual…, triangles…].
     float environment_probability = 0;
+    float directional_probability = 0;  // where it is not the environment
+    AliasTable directional;             // over the punctual lights
+    std::shared_ptr<const LightTree> placed;
 
     bool empty() const { return punctual.empty() && triangles.empty() && !environment; }
 };
 
-// Fills the choosing part (local, environment_probability) from the lists. scene_bounds sets the reach of directional
-// lights and environment for comparing powers.
+// Fills the choosing part from the lists. scene_bounds sets the reach of directional lights and environment for
+// comparing powers.
 void finish_lights(Lights& lights, const Bounds3& scene_bounds);
+// The same after a change of the environment alone: the tree stays.
+void weigh_lights(Lights& lights, const Bounds3& scene_bounds);
 
-// Chooses a light with u_pick and a point or direction on it with u, seen from a point.
-LightSample sample_light(const Lights& lights, const Vec3& from, float u_pick, const Vec2& u) noexcept;
+// Chooses a light with u_pick and a point or direction on it with u, seen from the receiver.
+LightSample sample_light(const Lights& lights, const LightReceiver& receiver, float u_pick, const Vec2& u) noexcept;
 
-// The pdf with which sample_light, from the same point, finds the emissive cell (index in Lights::triangles) along
+// The pdf with which sample_light, for the same receiver, finds the emissive cell (index in Lights::triangles) along
 // the unit direction wi at that distance; 0 where it would not (back of a one-sided emitter).
-float triangle_light_pdf(const Lights& lights, uint32_t emissive_index, const Vec3& from, const Vec3& wi,
+float triangle_light_pdf(const Lights& lights, uint32_t emissive_index, const LightReceiver& receiver, const Vec3& wi,
                          float distance) noexcept;
 // The same for a ray that leaves the scene.
 float environment_light_pdf(const Lights& lights, const Vec3& wi) noexcept;

@@ -133,7 +133,7 @@ std::shared_ptr<const World> with_environment(const std::shared_ptr<const World>
     auto out = std::make_shared<World>(*world);
     out->accel = world->accel->with_user(out.get());
     out->lights.environment = make_environment(environment);
-    finish_lights(out->lights, out->bounds);
+    weigh_lights(out->lights, out->bounds);
     return out;
 }
 
