@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "renderer/image/byte_order.h"
 #include "renderer/image/codec.h"
 
 namespace candela {
@@ -17,11 +18,7 @@ class BitReader {
 
     // The next count ≤ 32 bits, zeros beyond the end.
     uint32_t peek(unsigned count) {
-        while (held_bits_ <= 56 && !rest_.empty()) {
-            held_ |= static_cast<uint64_t>(rest_.front()) << held_bits_;
-            held_bits_ += 8;
-            rest_ = rest_.subspan(1);
-        }
+        if (held_bits_ < count) refill();
         return static_cast<uint32_t>(held_ & ((uint64_t{1} << count) - 1));
     }
     // Drops bits that were peeked.
@@ -37,6 +34,17 @@ class BitReader {
     }
 
   private:
+    void refill() {
+        if (rest_.size() >= 8) {  // as many whole bytes of the next eight as there is room for
+            held_ |= read_u64(rest_, 0) << held_bits_;
+            rest_ = rest_.subspan((63 - held_bits_) / 8);
+            held_bits_ |= 56;
+            return;
+        }
+        for (; held_bits_ <= 56 && !rest_.empty(); rest_ = rest_.subspan(1), held_bits_ += 8)
+            held_ |= static_cast<uint64_t>(rest_.front()) << held_bits_;
+    }
+
     std::span<const std::byte> rest_;
     uint64_t held_ = 0;
     unsigned held_bits_ = 0;

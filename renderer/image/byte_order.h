@@ -2,26 +2,29 @@
 // Little-endian numbers in a byte string. The caller has checked that they are there.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 
 namespace candela {
 
-inline uint64_t read_little_endian(std::span<const std::byte> bytes, size_t offset, size_t count) {
-    uint64_t out = 0;
-    for (size_t i = 0; i < count; ++i)
-        out |= static_cast<uint64_t>(bytes[offset + i]) << (8 * i);
+template <typename T>
+T read_little_endian(std::span<const std::byte> bytes, size_t offset) {
+    static_assert(std::endian::native == std::endian::little);
+    T out;
+    std::memcpy(&out, bytes.data() + offset, sizeof(T));
     return out;
 }
 inline uint16_t read_u16(std::span<const std::byte> bytes, size_t offset) {
-    return static_cast<uint16_t>(read_little_endian(bytes, offset, 2));
+    return read_little_endian<uint16_t>(bytes, offset);
 }
 inline uint32_t read_u32(std::span<const std::byte> bytes, size_t offset) {
-    return static_cast<uint32_t>(read_little_endian(bytes, offset, 4));
+    return read_little_endian<uint32_t>(bytes, offset);
 }
 inline uint64_t read_u64(std::span<const std::byte> bytes, size_t offset) {
-    return read_little_endian(bytes, offset, 8);
+    return read_little_endian<uint64_t>(bytes, offset);
 }
 
 }  // namespace candela

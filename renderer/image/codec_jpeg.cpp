@@ -4,6 +4,8 @@
 
 #include <jpeglib.h>
 
+#include <jerror.h>
+
 #include "renderer/image/codecs.h"
 
 namespace candela {
@@ -16,19 +18,33 @@ namespace {
     throw ImageError(std::string("broken JPEG: ") + message);
 }
 
-// A warning means that data is missing or damaged; a picture with grey holes is worse than a plain word.
+// Most warnings mean that data is missing or damaged; a picture with grey holes is worse than a plain word. The others
+// are quirks of cameras and editors that cost no texel.
 void treat_jpeg_message(j_common_ptr info, int level) {
-    if (level < 0) throw_jpeg_error(info);
+    constexpr int quirks[] = {JWRN_EXTRANEOUS_DATA, JWRN_JFIF_MAJOR, JWRN_ADOBE_XFORM, JWRN_NOT_SEQUENTIAL};
+    const bool quirk = std::find(std::begin(quirks), std::end(quirks), info->err->msg_code) != std::end(quirks);
+    if (level < 0 && !quirk) throw_jpeg_error(info);
+}
+
+// Each scan of a progressive file visits the whole picture: many make a small file take minutes. Encoders write ten.
+constexpr int max_scans = 200;
+
+void limit_scans(j_common_ptr info) {
+    if (reinterpret_cast<j_decompress_ptr>(info)->input_scan_number > max_scans)
+        throw ImageError("the JPEG has more than " + std::to_string(max_scans) + " scans");
 }
 
 struct JpegReader {
     jpeg_decompress_struct info{};
     jpeg_error_mgr errors{};
+    jpeg_progress_mgr progress{};
     JpegReader() {
         info.err = jpeg_std_error(&errors);
         errors.error_exit = throw_jpeg_error;
         errors.emit_message = treat_jpeg_message;
         jpeg_create_decompress(&info);
+        progress.progress_monitor = limit_scans;
+        info.progress = &progress;
     }
     JpegReader(const JpegReader&) = delete;
     JpegReader& operator=(const JpegReader&) = delete;
@@ -59,7 +75,7 @@ ImageRgba8 decode_jpeg(std::span<const std::byte> bytes, const DecodeLimits& lim
     // Adobe stores inks inverted: then each value is already how much light the ink lets through.
     for (Rgba8& p : out.pixels()) {
         const glm::uvec4 light = inverted ? glm::uvec4(p) : 255u - glm::uvec4(p);
-        p = Rgba8(light.r * light.a / 255u, light.g * light.a / 255u, light.b * light.a / 255u, 255u);
+        p = Rgba8((glm::uvec3(light) * light.a + 127u) / 255u, 255u);
     }
     return out;
 }

@@ -61,15 +61,14 @@ ImageRgba8 decode_png(std::span<const std::byte> bytes, const DecodeLimits& limi
     PngReader reader;
     ByteReader source{bytes};
     png_set_read_fn(reader.png, &source, read_bytes);
-    png_set_user_limits(reader.png, static_cast<png_uint_32>(limits.max_side),
-                        static_cast<png_uint_32>(limits.max_side));
+    png_set_user_limits(reader.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // check_size names the limit
     png_set_chunk_malloc_max(reader.png, 64u << 20);
     png_read_info(reader.png, reader.info);
     const png_uint_32 width = png_get_image_width(reader.png, reader.info);
     const png_uint_32 height = png_get_image_height(reader.png, reader.info);
     check_size(width, height, limits);
 
-    // Whatever is stored becomes 8-bit RGBA.
+    // Whatever is stored becomes 8-bit RGBA; transparent colours are found before 16 bits are rounded to 8.
     png_set_expand(reader.png);
     png_set_scale_16(reader.png);
     png_set_gray_to_rgb(reader.png);

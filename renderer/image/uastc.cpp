@@ -66,22 +66,35 @@ void take_endpoints(BlockBits& bits, unsigned mode_index, unsigned count, uint8_
         out[i] = endpoint_values[mode_index][digits[i] << mode.bits | bits.take(mode.bits)];
 }
 
-// Both ends of a channel widened to 16 bits ("Weight Application").
+// R, G, B and A at both ends of a subset's line of colours.
 struct Ends {
-    uint32_t low = 0xffff, high = 0xffff;
-    uint8_t at(uint32_t weight) const { return static_cast<uint8_t>((low * (64 - weight) + high * weight + 32) >> 14); }
+    std::array<uint16_t, 4> low{255, 255, 255, 255}, high{255, 255, 255, 255};
 };
 
-// The channels R, G, B, A of a subset from its endpoint values; luminance stands for all three colours.
-std::array<Ends, 4> channels_of(const uint8_t* values, unsigned components) {
-    std::array<Ends, 4> out;
-    const auto ends = [&](unsigned component) {
-        return Ends{values[2 * component] * 257u, values[2 * component + 1] * 257u};
-    };
-    if (components == 2) return {ends(0), ends(0), ends(0), ends(1)};
-    for (unsigned c = 0; c < components; ++c)
-        out[c] = ends(c);
+// From the subset's endpoint values; luminance stands for all three colours.
+Ends ends_of(const uint8_t* values, unsigned components) {
+    Ends out;
+    for (unsigned channel = 0; channel < 4; ++channel) {
+        const unsigned component = components == 2 ? channel / 3 : channel;
+        if (component >= components) break;
+        out.low[channel] = values[2 * component];
+        out.high[channel] = values[2 * component + 1];
+    }
     return out;
+}
+
+// "Weight Application" for all channels of all texels. Ends widened to 16 bits are 257 times the byte, so that the
+// result (257 t + 32) >> 14, t = low · (64 − weight) + high · weight, needs no more than 16 bits when split at the
+// byte.
+void interpolate(const std::array<std::array<uint16_t, 4>, 16>& low,
+                 const std::array<std::array<uint16_t, 4>, 16>& high,
+                 const std::array<std::array<uint16_t, 4>, 16>& weight, std::span<Rgba8, 16> out) {
+    for (size_t i = 0; i < 16; ++i) {
+        for (size_t c = 0; c < 4; ++c) {
+            const auto t = static_cast<uint16_t>(low[i][c] * (64 - weight[i][c]) + high[i][c] * weight[i][c]);
+            out[i][static_cast<int>(c)] = static_cast<uint8_t>((t + ((t + 32) >> 8)) >> 6);
+        }
+    }
 }
 
 }  // namespace
@@ -108,23 +121,21 @@ void decode_uastc_block(std::span<const std::byte, uastc_block_bytes> block, std
     const unsigned subsets = subset_count(mode.patterns);
     uint8_t endpoints[18];
     take_endpoints(bits, mode_index, 2u * mode.components * subsets, endpoints);
-    std::array<Ends, 4> channels[3];
+    Ends ends[3];
     for (unsigned s = 0; s < subsets; ++s)
-        channels[s] = channels_of(endpoints + 2u * mode.components * s, mode.components);
+        ends[s] = ends_of(endpoints + 2u * mode.components * s, mode.components);
 
     // One weight a texel and plane, raster order; that of a subset's first texel lacks its highest bit, which is zero.
     const auto& weights = weight_values[mode.weight_bits];
+    std::array<std::array<uint16_t, 4>, 16> low, high, weight;
     for (size_t i = 0; i < 16; ++i) {
         const unsigned stored_bits = mode.weight_bits - (pattern.anchor[i] ? 1u : 0u);
-        const std::array<Ends, 4>& ends = channels[pattern.subset[i]];
-        const uint32_t weight = weights[bits.take(stored_bits)];
-        Rgba8& texel = texels[i];
-        texel = {ends[0].at(weight), ends[1].at(weight), ends[2].at(weight), ends[3].at(weight)};
-        if (mode.planes == 2) {
-            const uint32_t second = weights[bits.take(stored_bits)];
-            texel[static_cast<int>(second_plane_channel)] = ends[second_plane_channel].at(second);
-        }
+        low[i] = ends[pattern.subset[i]].low;
+        high[i] = ends[pattern.subset[i]].high;
+        weight[i].fill(weights[bits.take(stored_bits)]);
+        if (mode.planes == 2) weight[i][second_plane_channel] = weights[bits.take(stored_bits)];
     }
+    interpolate(low, high, weight, texels);
 }
 
 ImageRgba8 decode_uastc(std::span<const std::byte> blocks, int width, int height) {
