@@ -53,11 +53,12 @@ void take_endpoints(BlockBits& bits, unsigned mode_index, unsigned count, uint8_
     const Mode& mode = modes[mode_index];
     unsigned digits[18] = {};
     if (mode.radix != 1) {
-        constexpr uint8_t trit_bits[] = {0, 2, 4, 5, 7, 8}, quint_bits[] = {0, 3, 5, 7};
+        // A last group of fewer trits has fewer bits; quints always come in threes.
+        constexpr uint8_t trit_bits[] = {0, 2, 4, 5, 7, 8}, quint_bits = 7;
         const unsigned group = mode.radix == 3 ? 5 : 3;
         for (unsigned first = 0; first < count; first += group) {
             const unsigned here = std::min(group, count - first);
-            unsigned packed = bits.take(mode.radix == 3 ? trit_bits[here] : quint_bits[here]);
+            unsigned packed = bits.take(mode.radix == 3 ? trit_bits[here] : quint_bits);
             for (unsigned k = 0; k < here; ++k, packed /= mode.radix)
                 digits[first + k] = packed % mode.radix;
         }

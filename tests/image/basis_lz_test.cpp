@@ -444,5 +444,38 @@ TEST(BasisLz, WhatPointsOutsideIsRefused) {
     EXPECT_NE(first_block(3, 0, 0).find("ends too early"), std::string::npos);
 }
 
+TEST(BasisLz, IndicesBeyondTheCodebooksAreRefused) {
+    std::mt19937 random(6);
+    const auto failure = [](const Book& book, const Tables& tables, uint32_t delta, uint32_t selector) {
+        BitWriter out;
+        tables.prediction.put(out, 3);
+        tables.delta.put(out, delta);
+        tables.selector.put(out, selector);
+        const Bytes data = global_data(book, tables, false, false, {{0, 0, 100, 0, 0}});
+        Bytes level = out.bytes();
+        level.resize(100);
+        try {
+            BasisLz(data, 1).decode(0, level, 4, 4, BasisLz::SecondSlice::none);
+        } catch (const ImageError& error) {
+            return std::string(error.what());
+        }
+        return std::string("decoded");
+    };
+    const Book book = random_book(20, 30, 8, false, random);
+    Tables tables(book);
+    tables.delta = even_code(100);
+    EXPECT_EQ(failure(book, tables, 39, 0), "decoded") << "wrapped around once";
+    EXPECT_NE(failure(book, tables, 40, 0).find("endpoint index is out of range"), std::string::npos);
+    EXPECT_NE(failure(book, tables, 99, 0).find("endpoint index is out of range"), std::string::npos);
+    EXPECT_EQ(failure(book, tables, 0, 37), "decoded") << "the last place of the history";
+
+    // A codebook without selectors leaves the history full of the first.
+    const Book none = random_book(20, 0, 8, false, random);
+    EXPECT_NE(failure(none, Tables(none), 0, 0).find("selector index is out of range"), std::string::npos);
+    Book forgetful = book;
+    forgetful.history = 0;
+    EXPECT_NE(failure(forgetful, tables, 0, 35).find("beyond the history"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace candela

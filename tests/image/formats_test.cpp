@@ -315,10 +315,14 @@ void expect_near(const Bytes& jpeg, const std::function<Rgba8(size_t)>& expected
     const ImageRgba8 image = decode_ldr(jpeg);
     ASSERT_EQ(image.width(), 24);
     ASSERT_EQ(image.height(), 16);
+    double error = 0;
     for (size_t i = 0; i < image.size(); ++i) {
-        for (int c = 0; c < 4; ++c)
+        for (int c = 0; c < 4; ++c) {
             ASSERT_NEAR(image.pixels()[i][c], expected(i)[c], tolerance) << "pixel " << i << ", channel " << c;
+            error += image.pixels()[i][c] - expected(i)[c];
+        }
     }
+    EXPECT_NEAR(error / (3.0 * static_cast<double>(image.size())), 0.0, 0.25) << "rounded, not cut";
 }
 
 TEST(Jpeg, ColoursAndGreysSequentialAndProgressive) {

@@ -13,8 +13,8 @@ namespace candela::test {
 using Bytes = std::vector<std::byte>;
 
 inline void append_number(Bytes& out, uint64_t value, size_t bytes) {
-    for (size_t i = 0; i < bytes; ++i)
-        out.push_back(static_cast<std::byte>(value >> (8 * i) & 255));
+    for (size_t i = 0; i < bytes; ++i, value >>= 8)
+        out.push_back(static_cast<std::byte>(value & 255));
 }
 
 inline constexpr int model_etc1s = 163, model_uastc = 166;
