@@ -28,6 +28,8 @@ class Viewer {
     // again.
     bool update();
     void draw();
+    // What a panel has changed; draw calls it for its own.
+    void apply(const PanelEdits& edits);
 
     // How long nothing will change without input.
     double seconds_until_update() const;
@@ -60,7 +62,6 @@ class Viewer {
     void take_loaded();
     void submit();
     void take_frame();
-    void apply(const PanelEdits& edits);
     void notify(std::string line, bool is_error = false);
 
     void handle_mouse_press(const MousePressed& event);

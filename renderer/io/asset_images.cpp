@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "renderer/image/picture_size.h"
 #include "renderer/io/materials.h"
 
 namespace candela {
@@ -10,7 +11,7 @@ namespace candela {
 void AssetImages::list(Scene& scene) const {
     for (const ImageLayout& image : layout_.images) {
         const bool is_file = image.uri && !is_data_uri(*image.uri);
-        scene.images.push_back({image.name.empty() && is_file ? *image.uri : image.name, {}});
+        scene.images.push_back({image.name.empty() && is_file ? *image.uri : image.name, {}, 0});
     }
 }
 
@@ -36,6 +37,14 @@ std::span<const std::byte> AssetImages::encoded(size_t index, const char* conseq
         context_.warn(where + "/uri", std::string(error.what()) + consequence);
     }
     return bytes;
+}
+
+void AssetImages::measure(Scene& scene) {
+    for (size_t i = 0; i < scene.images.size(); ++i) {
+        context_.check_cancel();
+        const std::optional<PictureSize> size = picture_size(encoded(i, ""));
+        if (size) scene.images[i].pixel_count = uint64_t{size->width} * size->height;
+    }
 }
 
 std::vector<DecodedImage> AssetImages::decode_all(std::span<const std::span<const std::byte>> sources) {

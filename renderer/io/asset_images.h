@@ -15,6 +15,9 @@ class AssetImages {
     // Names only; scene.images becomes as long as the file's.
     void list(Scene& scene) const;
 
+    // Pixel counts of all images, from their heads.
+    void measure(Scene& scene);
+
     // Decodes what the materials read. Textures whose image is missing or damaged take their fallback; without one the
     // image becomes one white texel with a warning, and as a normal texture is left out.
     void decode(Scene& scene);

@@ -52,7 +52,7 @@ std::span<const std::byte> BufferStore::view(uint32_t index) {
     std::vector<std::byte>& decoded = decoded_[index];
     if (decoded.empty()) {
         const CompressedLayout& source = *view.compressed;
-        const std::string where = pointer_to("/bufferViews", index, "extensions") + "/EXT_meshopt_compression";
+        const std::string where = pointer_to("/bufferViews", index, "extensions") + "/" + source.extension;
         context_.charge(source.count, source.stride, where + "/count");
         try {
             decoded = decode_meshopt({buffers_[source.buffer].subspan(source.byte_offset, source.byte_length),

@@ -11,7 +11,7 @@ using Treatment = ExtensionUse::Treatment;
 struct Known {
     std::string_view name;
     Treatment treatment;
-    bool harmless_when_ignored;  // may be required: without it the picture is the file's own default
+    bool harmless_when_ignored;  // may be required, and is no reason to warn: without it the picture is the same
     std::string_view how;        // of approximations and of what is ignored
 };
 
@@ -24,6 +24,7 @@ constexpr Known known[] = {
     {"KHR_materials_ior", Treatment::rendered, true, ""},
     {"KHR_materials_specular", Treatment::rendered, true, ""},
     {"KHR_materials_unlit", Treatment::rendered, true, ""},
+    {"KHR_meshopt_compression", Treatment::rendered, true, ""},
     {"KHR_mesh_quantization", Treatment::rendered, true, ""},
     {"KHR_texture_basisu", Treatment::rendered, true, ""},
     {"KHR_texture_transform", Treatment::rendered, true, ""},
@@ -42,8 +43,14 @@ constexpr Known known[] = {
     {"KHR_materials_volume", Treatment::rendered, true, ""},
     {"KHR_node_visibility", Treatment::rendered, true, ""},
     {"EXT_mesh_gpu_instancing", Treatment::rendered, true, ""},
-    {"KHR_xmp", Treatment::ignored, true, "metadata"},
-    {"KHR_xmp_json_ld", Treatment::ignored, true, "metadata"},
+    {"EXT_instance_features", Treatment::ignored, true, "identities for applications; nothing to see"},
+    {"EXT_mesh_features", Treatment::ignored, true, "identities for applications; nothing to see"},
+    {"EXT_mesh_manifold", Treatment::ignored, true, "says that meshes are closed; nothing to see"},
+    {"EXT_structural_metadata", Treatment::ignored, true, "data for applications; nothing to see"},
+    {"KHR_node_hoverability", Treatment::ignored, true, "interaction; nothing to see"},
+    {"KHR_node_selectability", Treatment::ignored, true, "interaction; nothing to see"},
+    {"KHR_xmp", Treatment::ignored, true, "metadata: candela info shows it"},
+    {"KHR_xmp_json_ld", Treatment::ignored, true, "metadata: candela info shows it"},
 };
 
 const Known* find_known(std::string_view name) {
@@ -83,7 +90,11 @@ std::vector<ExtensionUse> treat_extensions(LoadContext& context, const Json& doc
         ExtensionUse& use = add(required[i]);
         use.required = true;
         const Known* entry = find_known(use.name);
-        if (entry == nullptr || !entry->harmless_when_ignored) {
+        if (entry != nullptr && entry->harmless_when_ignored) continue;
+        if (context.options().list_refused) {
+            use.treatment = Treatment::refused;
+            use.how = "required, but not supported";
+        } else {
             context.fail(pointer_to("/extensionsRequired", i),
                          "the required extension " + use.name + " is not supported; export the scene without it");
         }
@@ -92,7 +103,8 @@ std::vector<ExtensionUse> treat_extensions(LoadContext& context, const Json& doc
     for (size_t i = 0; i < used.size(); ++i) {
         const bool listed = use_of(used[i]) != nullptr;
         const ExtensionUse& use = listed ? *use_of(used[i]) : add(used[i]);
-        if (use.how == "metadata") continue;
+        const Known* entry = find_known(use.name);
+        if (use.treatment == Treatment::ignored && entry != nullptr && entry->harmless_when_ignored) continue;
         if (use.treatment == Treatment::ignored) {
             context.warn(pointer_to("/extensionsUsed", i), use.name + " is ignored: " + use.how);
         } else if (use.treatment == Treatment::approximated) {

@@ -6,7 +6,8 @@
 namespace candela {
 namespace {
 
-constexpr const char* meshopt_name = "EXT_meshopt_compression";
+// The second adds a filter and a version of the stream to the first.
+constexpr const char* meshopt_names[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
 
 // Validated members: present ones have the right type.
 uint64_t integer(const Json& object, const char* member, uint64_t otherwise = 0) {
@@ -69,8 +70,9 @@ std::string outside(const std::string& what, uint64_t offset, uint64_t length, c
            " bytes reaches past the end of " + of + ", which has " + std::to_string(size) + " bytes";
 }
 
-CompressedLayout read_compressed(LoadContext& context, const Json& object, const std::string& where) {
+CompressedLayout read_compressed(LoadContext& context, const Json& object, const char* name, const std::string& where) {
     CompressedLayout out;
+    out.extension = name;
     out.buffer = *index(object, "buffer");
     out.byte_offset = integer(object, "byteOffset");
     out.byte_length = integer(object, "byteLength");
@@ -84,7 +86,7 @@ CompressedLayout read_compressed(LoadContext& context, const Json& object, const
     } else if (mode == "INDICES") {
         out.mode = MeshoptMode::indices;
     } else {
-        context.fail(where + "/mode", "\"" + mode + "\" is not a mode of EXT_meshopt_compression");
+        context.fail(where + "/mode", "\"" + mode + "\" is not a mode of " + name);
     }
     const std::string filter = text(object, "filter").value_or("NONE");
     if (filter == "NONE") {
@@ -95,8 +97,10 @@ CompressedLayout read_compressed(LoadContext& context, const Json& object, const
         out.filter = MeshoptFilter::quaternion;
     } else if (filter == "EXPONENTIAL") {
         out.filter = MeshoptFilter::exponential;
+    } else if (filter == "COLOR" && std::string_view(name) == meshopt_names[1]) {
+        out.filter = MeshoptFilter::color;
     } else {
-        context.fail(where + "/filter", "\"" + filter + "\" is not a filter of EXT_meshopt_compression");
+        context.fail(where + "/filter", "\"" + filter + "\" is not a filter of " + name);
     }
     return out;
 }
@@ -106,9 +110,11 @@ void read_buffers(const Json& document, Layout& layout) {
         BufferLayout& buffer = layout.buffers.emplace_back();
         buffer.uri = text(object, "uri");
         buffer.byte_length = integer(object, "byteLength");
-        if (const Json* meshopt = extension(object, meshopt_name)) {
+        for (const char* name : meshopt_names) {
+            const Json* meshopt = extension(object, name);
+            if (meshopt == nullptr) continue;
             const auto fallback = meshopt->find("fallback");
-            buffer.needed = fallback == meshopt->end() || !fallback->get<bool>();
+            if (fallback != meshopt->end() && fallback->get<bool>()) buffer.needed = false;
         }
     }
 }
@@ -130,12 +136,13 @@ void read_views(LoadContext& context, const Json& document, Layout& layout) {
             context.fail(where + "/byteLength", outside("a view", view.byte_offset, view.byte_length,
                                                         pointer_to("/buffers", view.buffer), buffer_bytes));
         }
-        const Json* meshopt = extension(object, meshopt_name);
+        const char* name = meshopt_names[extension(object, meshopt_names[1]) != nullptr ? 1 : 0];
+        const Json* meshopt = extension(object, name);
         (meshopt == nullptr ? read_plainly : stands_in)[view.buffer] = 1;
         if (meshopt == nullptr) continue;
 
-        const std::string place = where + "/extensions/" + meshopt_name;
-        CompressedLayout compressed = read_compressed(context, *meshopt, place);
+        const std::string place = where + "/extensions/" + name;
+        CompressedLayout compressed = read_compressed(context, *meshopt, name, place);
         const uint64_t source_bytes = layout.buffers[compressed.buffer].byte_length;
         if (!in_range(compressed.byte_offset, compressed.byte_length, source_bytes)) {
             context.fail(place + "/byteLength",

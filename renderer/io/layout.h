@@ -33,6 +33,7 @@ struct BufferLayout {
 };
 
 struct CompressedLayout {
+    const char* extension = "";  // EXT_ or KHR_meshopt_compression
     uint32_t buffer = 0;
     uint64_t byte_offset = 0, byte_length = 0;
     uint64_t count = 0, stride = 0;

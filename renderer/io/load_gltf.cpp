@@ -13,6 +13,7 @@
 #include "renderer/io/instancing.h"
 #include "renderer/io/materials.h"
 #include "renderer/io/meshes.h"
+#include "renderer/io/metadata.h"
 #include "renderer/io/nodes.h"
 #include "renderer/io/schema.h"
 #include "renderer/io/skins.h"
@@ -73,6 +74,7 @@ Scene load(LoadContext& context, const std::filesystem::path& path) {
     scene.source = context.path();
     validate_document(context, document);
     scene.extensions = treat_extensions(context, document);
+    load_metadata(context, document, scene);
 
     const Layout layout = read_layout(context, document);
     tinygltf::Model model;
@@ -109,6 +111,7 @@ Scene load(LoadContext& context, const std::filesystem::path& path) {
         images.decode(scene);
         load_image_based_light(context, document, images, scene);
     }
+    if (context.options().measure_images) images.measure(scene);
     context.progress(1.0f, "done");
     return scene;
 }

@@ -15,7 +15,10 @@ namespace candela {
 struct LoadOptions {
     std::optional<uint32_t> scene;  // index; default: the file's scene, else the first
     std::string variant;            // name; empty: each primitive's own material
-    bool decode_images = true;      // false for `info`
+    bool decode_images = true;
+    bool measure_images = false;  // without decoding them
+    // A required extension that is not supported does not end the load, but is listed as refused.
+    bool list_refused = false;
     uint64_t max_memory_bytes = uint64_t{16} << 30;
     // Called with 0..1 and a word for the step ("reading", "images", "tangents"), from the loading thread only.
     std::function<void(float, const char*)> progress;

@@ -5,6 +5,8 @@
 
 #include <stdexcept>
 
+#include "renderer/io/meshopt_attributes.h"
+
 namespace candela {
 namespace {
 
@@ -12,7 +14,7 @@ void require(bool holds, const char* reason) {
     if (!holds) throw std::runtime_error(reason);
 }
 
-// EXT_meshopt_compression, "Specifying compressed views" and "Compression filters".
+// KHR_meshopt_compression, "Specifying compressed views" and "Compression modes and filters".
 void check_parameters(const MeshoptView& view) {
     if (view.mode == MeshoptMode::attributes) {
         require(view.stride > 0 && view.stride % 4 == 0 && view.stride <= 256,
@@ -23,17 +25,21 @@ void check_parameters(const MeshoptView& view) {
         require(view.mode != MeshoptMode::triangles || view.count % 3 == 0,
                 "the count of TRIANGLES must be a multiple of 3");
     }
-    if (view.filter == MeshoptFilter::octahedral) {
-        require(view.stride == 4 || view.stride == 8, "byteStride of the OCTAHEDRAL filter must be 4 or 8");
+    if (view.filter == MeshoptFilter::octahedral || view.filter == MeshoptFilter::color) {
+        require(view.stride == 4 || view.stride == 8, "byteStride of the OCTAHEDRAL and COLOR filters must be 4 or 8");
     } else if (view.filter == MeshoptFilter::quaternion) {
         require(view.stride == 8, "byteStride of the QUATERNION filter must be 8");
     }
 }
 
-int decode(const MeshoptView& view, std::byte* out) {
+int decode(const MeshoptView& view, std::span<std::byte> into) {
+    std::byte* out = into.data();
     const auto* encoded = reinterpret_cast<const unsigned char*>(view.encoded.data());
     switch (view.mode) {
         case MeshoptMode::attributes:
+            if (is_attributes_v1(view.encoded)) {
+                return decode_attributes_v1(view.encoded, view.count, view.stride, into) ? 0 : -1;
+            }
             return meshopt_decodeVertexBuffer(out, view.count, view.stride, encoded, view.encoded.size());
         case MeshoptMode::triangles:
             return meshopt_decodeIndexBuffer(out, view.count, view.stride, encoded, view.encoded.size());
@@ -49,7 +55,7 @@ std::vector<std::byte> decode_meshopt(const MeshoptView& view) {
     check_parameters(view);
     std::vector<std::byte> out(view.count * view.stride);
     if (view.count == 0) return out;
-    require(decode(view, out.data()) == 0, "the compressed data is damaged");
+    require(decode(view, out) == 0, "the compressed data is damaged");
     switch (view.filter) {
         case MeshoptFilter::none:
             break;
@@ -61,6 +67,9 @@ std::vector<std::byte> decode_meshopt(const MeshoptView& view) {
             break;
         case MeshoptFilter::exponential:
             meshopt_decodeFilterExp(out.data(), view.count, view.stride);
+            break;
+        case MeshoptFilter::color:
+            decode_color_filter(out, view.stride);
             break;
     }
     return out;

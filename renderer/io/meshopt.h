@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// EXT_meshopt_compression: one compressed buffer view to the bytes that accessors read.
+// EXT_ and KHR_meshopt_compression: one compressed buffer view to the bytes that accessors read.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 namespace candela {
 
 enum class MeshoptMode : uint8_t { attributes, triangles, indices };
-enum class MeshoptFilter : uint8_t { none, octahedral, quaternion, exponential };
+enum class MeshoptFilter : uint8_t { none, octahedral, quaternion, exponential, color };
 
 struct MeshoptView {
     std::span<const std::byte> encoded;  // in range of its buffer; the content is not to be trusted

@@ -42,6 +42,8 @@ constexpr Rule rules[] = {
     {"buffers/*/extensions", Kind::object},
     {"buffers/*/extensions/EXT_meshopt_compression", Kind::object},
     {"buffers/*/extensions/EXT_meshopt_compression/fallback", Kind::boolean},
+    {"buffers/*/extensions/KHR_meshopt_compression", Kind::object},
+    {"buffers/*/extensions/KHR_meshopt_compression/fallback", Kind::boolean},
 
     {"bufferViews", Kind::array},
     {"bufferViews/*", Kind::object},
@@ -58,6 +60,14 @@ constexpr Rule rules[] = {
     {"bufferViews/*/extensions/EXT_meshopt_compression/count", Kind::integer, {}, needed, 1},
     {"bufferViews/*/extensions/EXT_meshopt_compression/mode", Kind::string, {}, needed},
     {"bufferViews/*/extensions/EXT_meshopt_compression/filter", Kind::string},
+    {"bufferViews/*/extensions/KHR_meshopt_compression", Kind::object},
+    {"bufferViews/*/extensions/KHR_meshopt_compression/buffer", Kind::index, "buffers", needed},
+    {"bufferViews/*/extensions/KHR_meshopt_compression/byteOffset", Kind::integer},
+    {"bufferViews/*/extensions/KHR_meshopt_compression/byteLength", Kind::integer, {}, needed, 1},
+    {"bufferViews/*/extensions/KHR_meshopt_compression/byteStride", Kind::integer, {}, needed, 1},
+    {"bufferViews/*/extensions/KHR_meshopt_compression/count", Kind::integer, {}, needed, 1},
+    {"bufferViews/*/extensions/KHR_meshopt_compression/mode", Kind::string, {}, needed},
+    {"bufferViews/*/extensions/KHR_meshopt_compression/filter", Kind::string},
 
     {"accessors", Kind::array},
     {"accessors/*", Kind::object},

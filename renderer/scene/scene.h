@@ -196,6 +196,7 @@ struct Material {
 struct SceneImage {
     std::string name;
     std::shared_ptr<const ImageRgba8> pixels;  // null: not decoded
+    uint64_t pixel_count = 0;                  // as the head of the picture says; 0: unknown, or decoded
 };
 
 enum class LightKind : uint8_t { point, spot, directional };
@@ -275,6 +276,11 @@ struct ExtensionUse {
     std::string how;  // what an approximation does
 };
 
+// Something that the file says of itself or of a part of it: of what (JSON pointers), which property, its value.
+struct MetadataEntry {
+    std::string where, key, value;
+};
+
 // The points and lines of a file, which are drawn as spheres and tubes of one width.
 struct StrokeSummary {
     uint64_t points = 0, segments = 0;
@@ -325,6 +331,7 @@ struct Scene {
     std::vector<std::string> variant_names;
     std::optional<uint32_t> active_variant;  // none: each primitive's own material
     StrokeSummary strokes;
+    std::vector<MetadataEntry> metadata;
     std::vector<ExtensionUse> extensions;
 
     const Mesh& mesh(MeshId id) const { return *meshes[id.value]; }

@@ -72,6 +72,57 @@ TEST_F(CommandLine, ThePictureDoesNotDependOnThreads) {
     EXPECT_EQ(compared.status, 0) << compared.text;
 }
 
+TEST_F(CommandLine, InfoSaysWhatTheFileHolds) {
+    // A chain of 100 nodes, a metadata packet, and an extension of every kind.
+    std::string nodes = "{\"name\": \"root\", \"children\": [1]}";
+    for (int i = 1; i < 100; ++i)
+        nodes += ", {\"children\": [" + std::to_string(i + 1) + "]}";
+    nodes += ", {\"name\": \"leaf\"}";
+    const auto write = [&](const std::string& required) {
+        std::ofstream(folder_ / "a.gltf")
+            << R"({"asset": {"version": "2.0", "generator": "a test", "extensions": {"KHR_xmp_json_ld": {"packet": 0}}},
+            "extensionsUsed": ["KHR_xmp_json_ld", "KHR_materials_iridescence", "KHR_materials_variants", "EXT_new"],
+            "extensionsRequired": [)" +
+                   required + R"(],
+            "extensions": {"KHR_xmp_json_ld": {"packets": [{"@context": {"dc": "x"},
+                    "dc:title": {"@type": "rdf:Alt", "rdf:_1": {"@language": "en", "@value": "A title"}},
+                    "dc:creator": {"@list": ["One", "Two"]}}]},
+                "KHR_materials_variants": {"variants": [{"name": "red"}]}},
+            "nodes": [)" +
+                   nodes + R"(], "scenes": [{"name": "first", "nodes": [0]}, {"nodes": []}], "scene": 0})";
+    };
+    write("");
+    const Outcome text = run("info " + file("a.gltf"));
+    EXPECT_EQ(text.status, 0) << text.text;
+    for (const char* line :
+         {"KHR_xmp_json_ld: ignored (metadata", "KHR_materials_iridescence: approximated (",
+          "EXT_new: ignored (unknown", "KHR_materials_variants: rendered", "/asset dc:title: A title",
+          "/asset dc:creator: One, Two", "/asset generator: a test", "0: variant \"red\"", "0: scene \"first\", shown",
+          "1: scene 1\n", "  root\n    node 1\n", "and 61 more; -v lists all", "memory       about"}) {
+        EXPECT_NE(text.text.find(line), std::string::npos) << line << " in\n" << text.text;
+    }
+    EXPECT_EQ(text.text.find("leaf"), std::string::npos);
+    EXPECT_NE(run("info -v " + file("a.gltf")).text.find("leaf"), std::string::npos);
+    EXPECT_NE(run("info --variant red " + file("a.gltf")).text.find("\"red\", shown"), std::string::npos);
+    EXPECT_NE(run("info --scene 1 " + file("a.gltf")).text.find("101 nodes are not in this scene"), std::string::npos);
+
+    const Outcome json = run("info --json " + file("a.gltf"));
+    for (const char* key : {"scene", "scenes", "active_scene", "variants", "active_variant", "counts", "triangles",
+                            "placed_triangles", "strokes", "vertex_bytes", "estimated_bytes", "nodes", "meshes",
+                            "cameras", "lights", "animations", "extensions", "metadata", "warnings"}) {
+        EXPECT_NE(json.text.find("\n  \"" + std::string(key) + "\":"), std::string::npos) << key;
+    }
+
+    // What is refused is listed with the rest, but the file still cannot be read.
+    write("\"EXT_new\"");
+    const Outcome refused = run("info " + file("a.gltf"));
+    EXPECT_EQ(refused.status, 3);
+    EXPECT_NE(refused.text.find("EXT_new: refused (required, but not supported), required"), std::string::npos)
+        << refused.text;
+    EXPECT_NE(refused.text.find("the required extension EXT_new is not supported"), std::string::npos);
+    EXPECT_EQ(run("render -o " + file("a.png") + tiny + file("a.gltf")).status, 3);
+}
+
 TEST_F(CommandLine, WrongUsageIsTwo) {
     for (const std::string& arguments :
          {std::string("frobnicate"), std::string("render"), "render -o " + file("a.bmp"),

@@ -189,6 +189,64 @@ TEST_F(ViewerTest, TheNewestOfSeveralDroppedScenesWins) {
     EXPECT_EQ(viewer_->title(), "candela - glass_slab.glb");
 }
 
+// A cube with two variants, and two scenes of which the second has none.
+std::filesystem::path write_variants() {
+    const std::vector<float> positions = {-1, -1, 0, 1, -1, 0, 0, 1, 0};
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / "candela viewer variants";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "data.bin", std::ios::binary)
+        .write(reinterpret_cast<const char*>(positions.data()), static_cast<std::streamsize>(positions.size() * 4));
+    std::ofstream(folder / "variants.gltf") << R"({
+        "asset": {"version": "2.0"}, "extensionsUsed": ["KHR_materials_variants"],
+        "extensions": {"KHR_materials_variants": {"variants": [{"name": "red"}, {"name": "blue"}]}},
+        "buffers": [{"uri": "data.bin", "byteLength": 36}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.8, 0.8, 1], "metallicFactor": 0}},
+                      {"pbrMetallicRoughness": {"baseColorFactor": [0.8, 0, 0, 1], "metallicFactor": 0}},
+                      {"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0.8, 1], "metallicFactor": 0}}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0,
+            "extensions": {"KHR_materials_variants": {"mappings": [{"material": 1, "variants": [0]},
+                                                                   {"material": 2, "variants": [1]}]}}}]}],
+        "nodes": [{"mesh": 0}, {"mesh": 0, "scale": [1, 0.3, 1]}],
+        "scenes": [{"name": "whole", "nodes": [0]}, {"name": "flat", "nodes": [1]}], "scene": 0})";
+    return folder / "variants.gltf";
+}
+
+TEST_F(ViewerTest, VariantsAndScenesAreChosenInThePanel) {
+    start(options_for(write_variants().string()));
+    const ImageRgba8 own = picture();
+    const OrbitView view = model().view;
+    PanelEdits edits;
+    edits.variant = std::optional<uint32_t>(1);
+    viewer_->apply(edits);
+    finish();
+    const Rgba8 blue = picture()(100, 75);
+    EXPECT_GT(blue.b, blue.r + 50);
+    EXPECT_EQ(model().options.variant, "blue");
+    EXPECT_EQ(model().job.world->accel->work().trees_built, 0u) << "the geometry stays";
+    EXPECT_GT(model().job.world->accel->work().trees_shared, 0u);
+    EXPECT_EQ(model().view, view) << "the person's view stays";
+    edits.variant = std::optional<uint32_t>();
+    viewer_->apply(edits);
+    finish();
+    now_s_ += 10;
+    EXPECT_EQ(difference(own, picture()), 0.0) << "back to the file's own materials, to the bit";
+
+    // A variant given on the command line stays when the scene changes.
+    edits.variant = std::optional<uint32_t>(0);
+    viewer_->apply(edits);
+    finish();
+    PanelEdits other;
+    other.scene = 1;
+    viewer_->apply(other);
+    finish();
+    EXPECT_EQ(model().job.world->scene->active_scene, 1u);
+    EXPECT_EQ(model().job.world->scene->active_variant, std::optional<uint32_t>(0));
+    const Rgba8 red = picture()(100, 75);
+    EXPECT_GT(red.r, red.b + 50);
+    std::filesystem::remove_all(write_variants().parent_path());
+}
+
 TEST_F(ViewerTest, ADroppedEnvironmentLightsTheScene) {
     start(options_for("assets/validation/furnace_sphere.glb"));
     viewer_->handle(FilesDropped{{"assets/sky.hdr"}, {}});
