@@ -31,8 +31,8 @@ struct DecodeLimits {
 ImageRgba8 decode_ldr(std::span<const std::byte> bytes, const DecodeLimits& limits = {});
 
 // What a KTX2 file that decodes has against KHR_texture_basisu, where that does the picture no harm: predicates
-// ("has …", "says …"). Empty for other formats. color_data: it is used as sRGB colour.
-std::vector<std::string> basisu_oddities(std::span<const std::byte> bytes, bool color_data);
+// ("has …", "says …"). Empty for other formats. as_color, as_data: it is used as sRGB colour, as plain numbers.
+std::vector<std::string> basisu_oddities(std::span<const std::byte> bytes, bool as_color, bool as_data);
 
 // One named channel layer of an EXR besides the main picture: "albedo.R", "depth.Z", …
 struct ExrLayer {

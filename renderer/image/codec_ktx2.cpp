@@ -57,7 +57,7 @@ ImageRgba8 decode_ktx2(std::span<const std::byte> bytes, const DecodeLimits& lim
     return out;
 }
 
-std::vector<std::string> basisu_oddities(std::span<const std::byte> bytes, bool color_data) {
+std::vector<std::string> basisu_oddities(std::span<const std::byte> bytes, bool as_color, bool as_data) {
     std::vector<std::string> out;
     if (sniff_format(bytes) != ImageFormat::ktx2) return out;
     const Ktx2File file = parse_ktx2(bytes, {std::numeric_limits<int>::max(), std::numeric_limits<size_t>::max()});
@@ -66,11 +66,11 @@ std::vector<std::string> basisu_oddities(std::span<const std::byte> bytes, bool 
         out.push_back("has " + std::to_string(base.width) + "x" + std::to_string(base.height) +
                       " pixels, no multiples of 4 as KHR_texture_basisu wants");
     }
-    using Transfer = Ktx2File::Transfer;
-    if (file.transfer == (color_data ? Transfer::linear : Transfer::srgb)) {
-        out.push_back(color_data ? "says that its values are linear but is used as sRGB colour"
-                                 : "says that its values are sRGB but is used as data");
-    }
+    // Of two uses one disagrees, whatever it says.
+    if (as_color && !as_data && file.transfer == Ktx2File::Transfer::linear)
+        out.emplace_back("says that its values are linear but is used as sRGB colour");
+    if (as_data && !as_color && file.transfer == Ktx2File::Transfer::srgb)
+        out.emplace_back("says that its values are sRGB but is used as data");
     return out;
 }
 

@@ -117,8 +117,7 @@ void AssetImages::decode_used(Scene& scene, std::vector<State>& states) {
         if (decoded[i].error.empty() && !decoded[i].pixels.empty()) {
             context_.charge(decoded[i].pixels.size(), sizeof(Rgba8), where);
             scene.images[image].pixels = std::make_shared<const ImageRgba8>(std::move(decoded[i].pixels));
-            if (state.color && state.data) continue;  // whatever it says of its colours, one use disagrees
-            for (const std::string& oddity : basisu_oddities(sources[i], state.color))
+            for (const std::string& oddity : basisu_oddities(sources[i], state.color, state.data))
                 context_.warn(where, oddity);
             continue;
         }

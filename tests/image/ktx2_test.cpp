@@ -157,19 +157,20 @@ TEST(Ktx2, ZstandardMustFillThePicture) {
 // Harmless, and said.
 TEST(Ktx2, Oddities) {
     Ktx2Parts parts = solid_parts();
-    EXPECT_TRUE(basisu_oddities(write_ktx2(parts), true).empty());
-    ASSERT_EQ(basisu_oddities(write_ktx2(parts), false).size(), 1u);
-    EXPECT_NE(basisu_oddities(write_ktx2(parts), false)[0].find("sRGB but is used as data"), std::string::npos);
+    EXPECT_TRUE(basisu_oddities(write_ktx2(parts), true, false).empty());
+    ASSERT_EQ(basisu_oddities(write_ktx2(parts), false, true).size(), 1u);
+    EXPECT_NE(basisu_oddities(write_ktx2(parts), false, true)[0].find("sRGB but is used as data"), std::string::npos);
     parts.transfer = 1;
-    EXPECT_TRUE(basisu_oddities(write_ktx2(parts), false).empty());
-    ASSERT_EQ(basisu_oddities(write_ktx2(parts), true).size(), 1u);
-    EXPECT_NE(basisu_oddities(write_ktx2(parts), true)[0].find("linear but is used as sRGB"), std::string::npos);
+    EXPECT_TRUE(basisu_oddities(write_ktx2(parts), false, true).empty());
+    ASSERT_EQ(basisu_oddities(write_ktx2(parts), true, false).size(), 1u);
+    EXPECT_NE(basisu_oddities(write_ktx2(parts), true, false)[0].find("linear but is used as sRGB"), std::string::npos);
+    EXPECT_TRUE(basisu_oddities(write_ktx2(parts), true, true).empty());
     parts.transfer = 0;
-    EXPECT_TRUE(basisu_oddities(write_ktx2(parts), true).empty());
+    EXPECT_TRUE(basisu_oddities(write_ktx2(parts), true, false).empty());
     parts.width = 3;
-    ASSERT_EQ(basisu_oddities(write_ktx2(parts), true).size(), 1u);
-    EXPECT_NE(basisu_oddities(write_ktx2(parts), true)[0].find("3x4"), std::string::npos);
-    EXPECT_TRUE(basisu_oddities({}, true).empty());
+    ASSERT_EQ(basisu_oddities(write_ktx2(parts), true, false).size(), 1u);
+    EXPECT_NE(basisu_oddities(write_ktx2(parts), true, false)[0].find("3x4"), std::string::npos);
+    EXPECT_TRUE(basisu_oddities({}, true, false).empty());
 }
 
 // Hashes of what the transcoder of three.js 0.187 (Basis Universal, to RGBA32) makes of the same files. The own files:

@@ -130,8 +130,11 @@ TEST_F(Images, ColourSpacesThatDisagreeWithTheUseAreSaid) {
     EXPECT_EQ(shown(load(document)), ktx2_color);
     EXPECT_TRUE(warned("/images/0", "sRGB but is used as data")) << all_warnings();
     document.json["materials"][0]["emissiveTexture"] = {{"index", 0}};
-    load(document);
-    EXPECT_TRUE(diagnostics_.warnings().empty()) << "used as both\n" << all_warnings();
+    for (const int transfer : {1, 2}) {
+        document.json["images"] = {data_uri("image/ktx2", base64(ktx2(transfer))), Json::object()};
+        load(document);
+        EXPECT_TRUE(diagnostics_.warnings().empty()) << "used as both\n" << all_warnings();
+    }
 }
 
 TEST_F(Images, WebpInDataUris) {
