@@ -37,6 +37,43 @@ Vec3 parse_vec3(const std::string& option, const std::string& text) {
     return out;
 }
 
+// What a file may ask for.
+void add_limit_options(CLI::App& command, LoadLimits& limits) {
+    const char* group = "Limits of the file";
+    command
+        .add_option_function<double>(
+            "--limit-memory",
+            [&limits](double gib) { limits.max_memory_bytes = static_cast<uint64_t>(std::ldexp(gib, 30)); },
+            "memory while loading, pixels included (16)")
+        ->check(CLI::Range(1e-6, 1e6))
+        ->type_name("GiB")
+        ->group(group);
+    command.add_option("--limit-image", limits.max_image_side, "pixels of a picture's side (16384)")
+        ->check(CLI::Range(1, 1 << 20))
+        ->type_name("PIXELS")
+        ->group(group);
+    command
+        .add_option_function<double>(
+            "--limit-json",
+            [&limits](double mib) { limits.max_json_bytes = static_cast<uint64_t>(std::ldexp(mib, 20)); },
+            "text of the document (256)")
+        ->check(CLI::Range(1e-6, 4095.0))
+        ->type_name("MiB")
+        ->group(group);
+    command.add_option("--limit-nesting", limits.max_json_nesting, "levels of its arrays and objects (128)")
+        ->check(CLI::Range(1, most_json_nesting))
+        ->type_name("N")
+        ->group(group);
+    command.add_option("--limit-count", limits.max_count, "nodes, accessors, primitives, ... of each kind (1000000)")
+        ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 31))
+        ->type_name("N")
+        ->group(group);
+    command.add_option("--limit-instances", limits.max_instances, "copies of meshes that instancing places (4000000)")
+        ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 31))
+        ->type_name("N")
+        ->group(group);
+}
+
 // Options as text, turned into values once CLI11 has read them.
 struct RawRenderOptions {
     std::string resolution, eye, target, up, sky, background, aov, animation;
@@ -126,6 +163,7 @@ void add_render_options(CLI::App& command, RenderOptions& options, RawRenderOpti
     command.add_option("--stats", options.stats_file, "JSON record of the run; - = standard output")->type_name("FILE");
     command.add_flag("--quiet", options.quiet, "no progress");
     command.add_flag("-v", options.verbose, "more detail");
+    add_limit_options(command, options.limits);
 }
 
 void finish_render_options(const RawRenderOptions& raw, RenderOptions& options) {
@@ -194,6 +232,7 @@ ExitStatus dispatch(int argc, char** argv) {
     info_command->add_option("--variant", info.variant, "which material variant of the file")->type_name("NAME");
     info_command->add_flag("--json", info.json, "as JSON");
     info_command->add_flag("-v", info.verbose, "the whole tree, however long");
+    add_limit_options(*info_command, info.limits);
 
     CompareOptions compare;
     CLI::App* compare_command = app.add_subcommand("compare", "how far two pictures differ");
@@ -250,16 +289,23 @@ const char* version_line() {
 
 int run_command_line(int argc, char** argv) {
     const auto report = [](const char* line, ExitStatus status) {
-        fmt::print(stderr, "candela: {}\n", line);
+        // Unlike fmt::print it does not throw where standard error is full too.
+        std::fprintf(stderr, "candela: %s\n", line);
         return static_cast<int>(status);
     };
+    constexpr const char* output_full = "standard output: cannot be written; is the disk full?";
     try {
-        return static_cast<int>(dispatch(argc, argv));
+        const ExitStatus status = dispatch(argc, argv);
+        // What was printed may still wait to be written.
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+            return report(output_full, ExitStatus::unwritable_output);
+        return static_cast<int>(status);
     } catch (const CommandError& error) {
         return report(error.what(), error.status());
     } catch (const std::bad_alloc&) {
         return report("there is not enough memory for this", ExitStatus::internal_error);
     } catch (const std::exception& error) {
+        if (std::ferror(stdout) != 0) return report(output_full, ExitStatus::unwritable_output);
         return report(error.what(), ExitStatus::internal_error);
     }
 }

@@ -8,6 +8,7 @@
 
 #include "renderer/image/tone.h"
 #include "renderer/integrator/settings.h"
+#include "renderer/io/load_gltf.h"
 #include "renderer/scene/camera.h"
 
 namespace candela {
@@ -33,6 +34,7 @@ struct RenderOptions {
     float hdri_intensity = 1;
     std::optional<Vec3> sky;
     ToneSettings tone;
+    LoadLimits limits;
     std::optional<uint32_t> scene_index;
     std::string variant;  // empty: each primitive's own material
     std::vector<std::string> aovs;
@@ -46,6 +48,7 @@ struct InfoOptions {
     std::string scene;
     std::optional<uint32_t> scene_index;
     std::string variant;
+    LoadLimits limits;
     bool json = false;
     bool verbose = false;
 };

@@ -131,7 +131,7 @@ std::shared_ptr<const Environment> read_environment(const RenderOptions& options
         return out;
     }
     try {
-        const ImageRgba32f image = read_linear(options.hdri);
+        const ImageRgba32f image = read_linear(options.hdri, image_limits(options.limits));
         out->radiance = ImageRgb32f(image.width(), image.height());
         for (size_t i = 0; i < image.size(); ++i)
             out->radiance.pixels()[i] = Vec3(image.pixels()[i]);
@@ -183,6 +183,7 @@ RenderJob prepare_render(const RenderOptions& options, const std::function<void(
     const Clock::time_point load_start = Clock::now();
     Diagnostics diagnostics;
     LoadOptions load;
+    static_cast<LoadLimits&>(load) = options.limits;
     load.scene = options.scene_index;
     load.variant = options.variant;
     load.cancel = cancel;

@@ -51,3 +51,7 @@ if(CANDELA_SANITIZE)
     add_compile_options(-fsanitize=${CANDELA_SANITIZE} -fno-sanitize-recover=all)
     add_link_options(-fsanitize=${CANDELA_SANITIZE})
 endif()
+if(CANDELA_FUZZ)
+    # Every branch tells the fuzzer that it was taken.
+    add_compile_options(-fsanitize=fuzzer-no-link)
+endif()

@@ -188,6 +188,7 @@ class Printer {
 ExitStatus run_info(const InfoOptions& options) {
     Diagnostics diagnostics;
     LoadOptions load;
+    static_cast<LoadLimits&>(load) = options.limits;
     load.decode_images = false;
     load.measure_images = true;
     load.list_refused = true;

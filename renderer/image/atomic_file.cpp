@@ -10,8 +10,6 @@
 #include <cstring>
 #include <fstream>
 
-#include "renderer/image/codec.h"
-
 namespace candela {
 
 namespace {
@@ -75,18 +73,24 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view t
     write_file_atomically(path, std::as_bytes(std::span(text.data(), text.size())));
 }
 
-std::vector<std::byte> read_file(const std::filesystem::path& path) {
+std::vector<std::byte> read_file(const std::filesystem::path& path, const DecodeLimits& limits) {
     std::error_code error;
-    if (std::filesystem::is_directory(path, error)) throw ImageError("is a folder, not a file");
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (std::filesystem::is_directory(status)) throw ImageError("is a folder, not a file");
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+        throw ImageError("is not a regular file");
+    }
     std::ifstream file(path, std::ios::binary);
     if (!file) throw ImageError(std::string("cannot open: ") + std::strerror(errno));
-    file.seekg(0, std::ios::end);
-    const std::streamoff size = file.tellg();
-    if (size < 0) throw ImageError("cannot tell its size");
-    std::vector<std::byte> bytes(static_cast<size_t>(size));
-    file.seekg(0);
-    file.read(reinterpret_cast<char*>(bytes.data()), size);
-    if (file.gcount() != size) throw ImageError("cannot read it whole");
+    const uint64_t size = std::filesystem::file_size(path, error);
+    if (error) throw ImageError("cannot tell its size");
+    if (size > limits.max_memory_bytes) {
+        throw ImageError("has " + std::to_string(size) + " bytes, more than the memory limit of " +
+                         std::to_string(limits.max_memory_bytes) + " bytes allows; --limit-memory raises it");
+    }
+    std::vector<std::byte> bytes(size);
+    file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+    if (static_cast<uint64_t>(file.gcount()) != size) throw ImageError("cannot read it whole");
     return bytes;
 }
 

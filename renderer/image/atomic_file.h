@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "renderer/image/codec.h"
+
 namespace candela {
 
 // Writes the bytes to a new file beside path, flushes it to the disk and renames it to path. On failure the new file is
@@ -16,7 +18,8 @@ namespace candela {
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_file_atomically(const std::filesystem::path& path, std::string_view text);
 
-// The whole file. Throws ImageError.
-std::vector<std::byte> read_file(const std::filesystem::path& path);
+// The whole of a regular file: pipes and devices may never end. Throws ImageError, also where it has more bytes than
+// the memory limit.
+std::vector<std::byte> read_file(const std::filesystem::path& path, const DecodeLimits& limits = {});
 
 }  // namespace candela

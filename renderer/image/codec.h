@@ -20,9 +20,11 @@ struct ImageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+// What a picture may ask for; the messages name the command line's options that raise them.
 struct DecodeLimits {
-    int max_side = 16384;
+    int max_side = 16384;  // --limit-image N: N, and N² pixels
     size_t max_pixels = size_t{1} << 28;
+    uint64_t max_memory_bytes = uint64_t{16} << 30;  // --limit-memory: for the file's bytes, and for the pixels
 };
 
 // Decodes PNG (1 to 16 bit, any colour type), JPEG (grey, YCbCr, CMYK), WebP or KTX2 (Basis Universal as

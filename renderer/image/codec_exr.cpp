@@ -12,6 +12,7 @@
 
 #include "renderer/image/atomic_file.h"
 #include "renderer/image/codecs.h"
+#include "renderer/image/exr_header.h"
 
 namespace candela {
 
@@ -66,13 +67,14 @@ Imf::Slice float_slice(float* first, const Imath::Box2i& window, int width, size
 }  // namespace
 
 ImageRgba32f decode_exr(std::span<const std::byte> bytes, const DecodeLimits& limits) try {
+    check_exr_header(bytes, limits);
     MemoryInput stream(bytes);
     Imf::InputFile file(stream);
     const Imath::Box2i window = file.header().dataWindow();
     const int64_t width = int64_t{window.max.x} - window.min.x + 1;
     const int64_t height = int64_t{window.max.y} - window.min.y + 1;
     check_size(static_cast<uint64_t>(std::max<int64_t>(width, 0)), static_cast<uint64_t>(std::max<int64_t>(height, 0)),
-               limits);
+               limits, sizeof(Vec4));
 
     const Imf::ChannelList& channels = file.header().channels();
     const bool grey = channels.findChannel("Y") != nullptr && channels.findChannel("R") == nullptr;

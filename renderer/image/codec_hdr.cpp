@@ -105,7 +105,7 @@ ImageRgba32f decode_hdr(std::span<const std::byte> bytes, const DecodeLimits& li
     if (std::sscanf(reader.line().c_str(), "-Y %d +X %d", &height, &width) != 2 || width <= 0 || height <= 0) {
         throw ImageError("broken HDR: its size line is not of the form -Y H +X W");
     }
-    check_size(static_cast<uint64_t>(width), static_cast<uint64_t>(height), limits);
+    check_size(static_cast<uint64_t>(width), static_cast<uint64_t>(height), limits, sizeof(Vec4));
     // Even the best run-length coding needs a few bytes a line.
     if (reader.rest().size() < static_cast<size_t>(height)) throw ImageError("broken HDR: it ends too early");
 

@@ -60,7 +60,8 @@ ImageRgba8 decode_ktx2(std::span<const std::byte> bytes, const DecodeLimits& lim
 std::vector<std::string> basisu_oddities(std::span<const std::byte> bytes, bool as_color, bool as_data) {
     std::vector<std::string> out;
     if (sniff_format(bytes) != ImageFormat::ktx2) return out;
-    const Ktx2File file = parse_ktx2(bytes, {std::numeric_limits<int>::max(), std::numeric_limits<size_t>::max()});
+    const Ktx2File file = parse_ktx2(bytes, {std::numeric_limits<int>::max(), std::numeric_limits<size_t>::max(),
+                                             std::numeric_limits<uint64_t>::max()});
     const Ktx2File::Level& base = file.levels.front();
     if (base.width % 4 != 0 || base.height % 4 != 0) {
         out.push_back("has " + std::to_string(base.width) + "x" + std::to_string(base.height) +

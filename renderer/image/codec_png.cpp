@@ -63,6 +63,9 @@ ImageRgba8 decode_png(std::span<const std::byte> bytes, const DecodeLimits& limi
     png_set_read_fn(reader.png, &source, read_bytes);
     png_set_user_limits(reader.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // check_size names the limit
     png_set_chunk_malloc_max(reader.png, 64u << 20);
+    // Of all that is not pixels only the transparent colour is read; texts and profiles may inflate to anything.
+    constexpr png_byte skipped[] = "iCCP\0zTXt\0iTXt\0tEXt\0sPLT\0hIST\0eXIf\0pCAL\0sCAL\0cHRM\0gAMA\0sRGB\0bKGD";
+    png_set_keep_unknown_chunks(reader.png, PNG_HANDLE_CHUNK_NEVER, skipped, sizeof(skipped) / 5);
     png_read_info(reader.png, reader.info);
     const png_uint_32 width = png_get_image_width(reader.png, reader.info);
     const png_uint_32 height = png_get_image_height(reader.png, reader.info);

@@ -12,8 +12,8 @@ namespace candela {
 enum class ImageFormat : uint8_t { unknown, png, jpeg, webp, ktx2, exr, hdr };
 ImageFormat sniff_format(std::span<const std::byte> bytes);
 
-// Throws when the size is 0 or over the limits.
-void check_size(uint64_t width, uint64_t height, const DecodeLimits& limits);
+// Throws when the size is 0 or over the limits. pixel_bytes: of the decoded picture.
+void check_size(uint64_t width, uint64_t height, const DecodeLimits& limits, size_t pixel_bytes = sizeof(Rgba8));
 
 ImageRgba8 decode_png(std::span<const std::byte> bytes, const DecodeLimits& limits);
 ImageRgba8 decode_jpeg(std::span<const std::byte> bytes, const DecodeLimits& limits);

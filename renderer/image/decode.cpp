@@ -26,13 +26,18 @@ ImageFormat sniff_format(std::span<const std::byte> bytes) {
     return ImageFormat::unknown;
 }
 
-void check_size(uint64_t width, uint64_t height, const DecodeLimits& limits) {
+void check_size(uint64_t width, uint64_t height, const DecodeLimits& limits, size_t pixel_bytes) {
     if (width == 0 || height == 0) throw ImageError("the picture has no pixels");
+    const std::string size = "the picture has " + std::to_string(width) + "x" + std::to_string(height) + " pixels";
     const auto side = static_cast<uint64_t>(limits.max_side);
     if (width > side || height > side || width * height > limits.max_pixels) {
-        throw ImageError("the picture has " + std::to_string(width) + "x" + std::to_string(height) +
-                         " pixels; the limit is " + std::to_string(limits.max_side) + " a side and " +
-                         std::to_string(limits.max_pixels) + " in all");
+        throw ImageError(size + "; the limit is " + std::to_string(limits.max_side) + " a side and " +
+                         std::to_string(limits.max_pixels) + " in all; --limit-image raises it");
+    }
+    if (width * height > limits.max_memory_bytes / pixel_bytes) {
+        throw ImageError(size + " and so needs " + std::to_string(width * height * pixel_bytes) +
+                         " bytes, more than the memory limit leaves for it (" +
+                         std::to_string(limits.max_memory_bytes) + " bytes); --limit-memory raises it");
     }
 }
 
@@ -52,7 +57,7 @@ ImageRgba8 decode_ldr(std::span<const std::byte> bytes, const DecodeLimits& limi
 }
 
 ImageRgba32f read_linear(const std::filesystem::path& path, const DecodeLimits& limits) {
-    const std::vector<std::byte> bytes = read_file(path);
+    const std::vector<std::byte> bytes = read_file(path, limits);
     switch (sniff_format(bytes)) {
         case ImageFormat::exr:
             return decode_exr(bytes, limits);
@@ -64,7 +69,7 @@ ImageRgba32f read_linear(const std::filesystem::path& path, const DecodeLimits& 
 }
 
 ImageRgba32f read_any_as_linear(const std::filesystem::path& path, const DecodeLimits& limits) {
-    const std::vector<std::byte> bytes = read_file(path);
+    const std::vector<std::byte> bytes = read_file(path, limits);
     const ImageFormat format = sniff_format(bytes);
     if (format == ImageFormat::exr) return decode_exr(bytes, limits);
     if (format == ImageFormat::hdr) return decode_hdr(bytes, limits);

@@ -50,6 +50,7 @@ void AssetImages::measure(Scene& scene) {
 std::vector<DecodedImage> AssetImages::decode_all(std::span<const std::span<const std::byte>> sources) {
     ImageDecodeOptions options;
     options.max_total_bytes = context_.bytes_left();
+    options.limits = image_limits(context_.options());
     options.progress = [this](float fraction) { context_.progress(0.4f + 0.6f * fraction, "images"); };
     options.cancel = context_.options().cancel;
     std::vector<DecodedImage> decoded = decode_images(sources, options);

@@ -43,11 +43,16 @@ void load_cameras(LoadContext& context, const tinygltf::Model& model, Scene& sce
 }
 
 void load_lights(LoadContext& context, const tinygltf::Model& model, Scene& scene) {
+    std::vector<uint8_t> used(model.lights.size(), 0);
+    for (const Node& node : scene.nodes) {
+        if (node.light.valid() && node.light.value < used.size()) used[node.light.value] = 1;
+    }
     for (size_t i = 0; i < model.lights.size(); ++i) {
         const tinygltf::Light& source = model.lights[i];
         const std::string where = pointer_to("/extensions/KHR_lights_punctual/lights", i);
         PunctualLight& light = scene.lights.emplace_back();
         light.name = source.name;
+        if (used[i] == 0) context.warn(where, "is on no node, and so shines nowhere");
         if (source.type == "point") {
             light.kind = LightKind::point;
         } else if (source.type == "spot") {

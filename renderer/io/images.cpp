@@ -27,7 +27,7 @@ std::vector<DecodedImage> decode_images(std::span<const std::span<const std::byt
             DecodeLimits limits = options.limits;
             const uint64_t used = used_bytes.load();
             const uint64_t left = used < options.max_total_bytes ? options.max_total_bytes - used : 0;
-            limits.max_pixels = std::min<uint64_t>(limits.max_pixels, left / sizeof(Rgba8));
+            limits.max_memory_bytes = std::min(limits.max_memory_bytes, left);
             out[i].pixels = decode_ldr(encoded[i], limits);
             used_bytes += out[i].pixels.size() * sizeof(Rgba8);
         } catch (const std::exception& error) {

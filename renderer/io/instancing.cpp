@@ -84,12 +84,15 @@ class InstancingReader {
 }  // namespace
 
 void load_instancing(LoadContext& context, const tinygltf::Model& model, AccessorReader& accessors, Scene& scene) {
+    uint64_t total = 0;
     for (size_t n = 0; n < model.nodes.size(); ++n) {
         const tinygltf::Value* extension = find_extension(model.nodes[n].extensions, name);
         if (extension == nullptr || !extension->Has("attributes")) continue;
         const std::string where = pointer_to("/nodes", n, "extensions") + "/" + name + "/attributes";
         InstancingReader reader(context, accessors.layout(), accessors, extension->Get("attributes"), where);
         std::vector<Mat4> transforms = reader.read();
+        total += transforms.size();
+        context.check_limit(total, context.options().max_instances, "instances", "--limit-instances", where);
         if (transforms.empty()) {
             context.warn(where, "has no TRANSLATION, ROTATION or SCALE; the mesh is placed once");
             continue;

@@ -13,11 +13,8 @@ namespace candela {
 
 using Json = nlohmann::json;
 
-// Deeper documents are refused: the parsers that read them later are recursive.
-inline constexpr int max_json_nesting = 128;
-
-// Throws LoadError with line and column for malformed text, for text nested too deeply and for roots other than
-// objects.
+// Throws LoadError with line and column for malformed text, for text that is too long, nested too deeply or counts too
+// many objects, and for roots other than objects.
 Json parse_json(LoadContext& context, std::string_view text);
 
 // A member name as one token of a JSON pointer (RFC 6901: ~ as ~0, / as ~1).

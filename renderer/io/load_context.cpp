@@ -16,7 +16,7 @@ void LoadContext::fail_choice(std::string where, std::string reason) const {
 void LoadContext::charge(uint64_t bytes, const std::string& where) {
     if (bytes > bytes_left()) {
         fail(where, "needs " + std::to_string(bytes) + " bytes, more than the memory limit of " +
-                        std::to_string(options_.max_memory_bytes) + " bytes allows");
+                        std::to_string(options_.max_memory_bytes) + " bytes allows; --limit-memory raises it");
     }
     used_bytes_ += bytes;
 }
@@ -26,6 +26,13 @@ void LoadContext::charge(uint64_t count, uint64_t bytes_each, const std::string&
         fail(where, "asks for more memory than can be counted");
     }
     charge(count * bytes_each, where);
+}
+
+void LoadContext::check_limit(uint64_t value, uint64_t limit, const char* unit, const char* option,
+                              const std::string& where) const {
+    if (value <= limit) return;
+    fail(where, "has " + std::to_string(value) + " " + unit + ", more than the limit of " + std::to_string(limit) +
+                    "; " + option + " raises it");
 }
 
 void LoadContext::progress(float fraction, const char* step) const {

@@ -31,6 +31,10 @@ class LoadContext {
     void release(uint64_t bytes) { used_bytes_ -= bytes < used_bytes_ ? bytes : used_bytes_; }
     uint64_t bytes_left() const { return options_.max_memory_bytes - used_bytes_; }
 
+    // Throws LoadError where value is over a limit of the options. unit: "nodes"; option: "--limit-count".
+    void check_limit(uint64_t value, uint64_t limit, const char* unit, const char* option,
+                     const std::string& where) const;
+
     void progress(float fraction, const char* step) const;
     // Throws LoadError "cancelled" once the caller has asked for it.
     void check_cancel() const;

@@ -63,9 +63,7 @@ void take_rest_pose(LoadContext& context, Scene& scene) {
     }
 }
 
-Scene load(LoadContext& context, const std::filesystem::path& path) {
-    context.progress(0.0f, "reading");
-    const std::vector<std::byte> bytes = read_asset(context, path);
+Scene load(LoadContext& context, std::span<const std::byte> bytes, const std::filesystem::path& path) {
     const GlbChunks chunks = split_chunks(context, bytes);
     Json document = parse_json(context, chunks.json);
 
@@ -121,7 +119,18 @@ Scene load(LoadContext& context, const std::filesystem::path& path) {
 Scene load_gltf(const std::filesystem::path& path, Diagnostics& diagnostics, const LoadOptions& options) {
     LoadContext context(path.string(), diagnostics, options);
     try {
-        return load(context, path);
+        context.progress(0.0f, "reading");
+        return load(context, read_asset(context, path), path);
+    } catch (const std::bad_alloc&) {
+        context.fail("", "there is not enough memory to load it");
+    }
+}
+
+Scene load_gltf(std::span<const std::byte> bytes, const std::filesystem::path& path, Diagnostics& diagnostics,
+                const LoadOptions& options) {
+    LoadContext context(path.string(), diagnostics, options);
+    try {
+        return load(context, bytes, path);
     } catch (const std::bad_alloc&) {
         context.fail("", "there is not enough memory to load it");
     }

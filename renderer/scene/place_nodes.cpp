@@ -113,9 +113,8 @@ std::vector<NodeId> place_nodes(Scene& scene, const std::vector<dmat4>& world_fr
         }
         if (node.camera.valid()) {
             const FileCamera& source = scene.file_cameras[node.camera.value];
-            CameraInstance& placed =
-                scene.cameras.emplace_back(source.name.empty() ? node.name : source.name, id, source.camera);
-            placed.camera.world_from_camera = rigid(world_from_this);
+            scene.cameras.push_back({source.name.empty() ? node.name : source.name, id, source.camera});
+            scene.cameras.back().camera.world_from_camera = rigid(world_from_this);
         }
     };
     for (const NodeId root : scene.roots)

@@ -1,47 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The contract of the command line, tried on the program itself.
-#include <sys/wait.h>
-
-#include <array>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <thread>
 
 #include "renderer/image/codec.h"
+#include "tests/app/program.h"
 
 namespace candela {
 namespace {
 
-struct Outcome {
-    int status = -1;
-    std::string text;  // standard output and error together
-};
-
-Outcome run(const std::string& arguments) {
-    Outcome out;
-    FILE* pipe = popen((std::string(CANDELA_PROGRAM) + " " + arguments + " 2>&1 </dev/null").c_str(), "r");
-    std::array<char, 4096> buffer{};
-    while (const size_t n = fread(buffer.data(), 1, buffer.size(), pipe))
-        out.text.append(buffer.data(), n);
-    const int status = pclose(pipe);
-    out.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    return out;
-}
-
-class CommandLine : public ::testing::Test {
-  protected:
-    void SetUp() override {
-        folder_ = std::filesystem::temp_directory_path() /
-                  ("candela cli " + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-    std::string file(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
-    std::filesystem::path folder_;
-};
+using namespace test;
 
 const std::string tiny = " --resolution 24x16 --spp 4 --quiet ";
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <sys/stat.h>
+
 #include <fstream>
 
 #include "renderer/image/atomic_file.h"
 #include "renderer/image/codec.h"
+#include "renderer/image/exr_header.h"
 #include "tests/support/shared_data.h"
 
 namespace candela {
@@ -73,6 +76,90 @@ TEST_F(Codec, LimitsAreKept) {
     write_png(folder_ / "a.png", ImageRgba8(64, 64), true);
     EXPECT_THROW(decode_ldr(read_file(folder_ / "a.png"), {32, 1u << 20}), ImageError);
     EXPECT_THROW(decode_ldr(read_file(folder_ / "a.png"), {4096, 100}), ImageError);
+}
+
+template <typename Action>
+std::string error_of(const Action& action) {
+    try {
+        action();
+    } catch (const ImageError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+std::string bytes_of_u32(size_t value) {
+    std::string out(4, '\0');
+    for (int i = 0; i < 4; ++i)
+        out[static_cast<size_t>(i)] = static_cast<char>(value >> (8 * i));
+    return out;
+}
+
+TEST_F(Codec, LimitsSayWhatTheyAreAndWhatRaisesThem) {
+    write_png(folder_ / "a.png", ImageRgba8(64, 32), true);
+    write_exr(folder_ / "a.exr", gradient(64, 32), false, {});
+    write_hdr(folder_ / "a.hdr", gradient(64, 32));
+    const auto error_with = [&](const char* name, const DecodeLimits& limits) {
+        return error_of([&] { read_any_as_linear(folder_ / name, limits); });
+    };
+    for (const char* name : {"a.png", "a.exr", "a.hdr"}) {
+        EXPECT_EQ(error_with(name, {64, 2048}), "no error");
+        EXPECT_EQ(error_with(name, {63, 2048}),
+                  "the picture has 64x32 pixels; the limit is 63 a side and 2048 in all; --limit-image raises it");
+        EXPECT_EQ(error_with(name, {64, 2047}),
+                  "the picture has 64x32 pixels; the limit is 64 a side and 2047 in all; --limit-image raises it");
+        const uint64_t needed = std::string(name) == "a.png" ? 64 * 32 * 4 : 64 * 32 * 16;
+        EXPECT_EQ(error_with(name, {64, 2048, needed}), "no error");
+        EXPECT_EQ(error_with(name, {64, 2048, needed - 1}),
+                  "the picture has 64x32 pixels and so needs " + std::to_string(needed) +
+                      " bytes, more than the memory limit leaves for it (" + std::to_string(needed - 1) +
+                      " bytes); --limit-memory raises it");
+    }
+    EXPECT_EQ(error_with("a.png", {64, 2048, 10}),
+              "has " + std::to_string(std::filesystem::file_size(folder_ / "a.png")) +
+                  " bytes, more than the memory limit of 10 bytes allows; --limit-memory raises it");
+}
+
+// OpenEXR allocates what an attribute's size says; the fuzzer asked it for 1.8 GB.
+TEST_F(Codec, ExrHeadersKeepToTheirFile) {
+    write_exr(folder_ / "a.exr", gradient(16, 16), false, {{"command", "some text"}});
+    const std::vector<std::byte> bytes = read_file(folder_ / "a.exr");
+    const std::string whole(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const auto error_with = [&](const std::string& attribute, const std::string& replacement) {
+        std::string text = whole;
+        const size_t at = text.find(attribute);
+        EXPECT_NE(at, std::string::npos);
+        text.replace(at, attribute.size(), replacement);
+        return error_of([&] { check_exr_header(std::as_bytes(std::span(text.data(), text.size())), {}); });
+    };
+    const std::string zero(1, '\0');
+    const std::string command = "command" + zero + "string" + zero, text = bytes_of_u32(9) + "some text";
+    EXPECT_EQ(error_with(command + text, command + text), "no error");
+    EXPECT_EQ(error_with(command + text, command + bytes_of_u32(0x70000000) + "some text"),
+              "broken EXR: its header declares more bytes than there are");
+    const std::string unknown = "command" + zero + "thing" + zero;
+    EXPECT_EQ(error_with(command + text, unknown + bytes_of_u32(0x70000000) + "some text"),
+              "broken EXR: its header declares more bytes than there are");
+    // Texts of a list have sizes of their own.
+    const std::string list = "command" + zero + "stringvector" + zero + bytes_of_u32(9);
+    EXPECT_EQ(error_with(command + text, list + bytes_of_u32(5) + "texts"), "no error");
+    EXPECT_EQ(error_with(command + text, list + bytes_of_u32(0x70000000) + "texts"),
+              "broken EXR: its header declares more bytes than there are");
+    // The library would go on reading in the midst of the next attribute.
+    const std::string number = "command" + zero + "int" + zero;
+    EXPECT_EQ(error_with(command + text, number + bytes_of_u32(4) + "four"), "no error");
+    EXPECT_EQ(error_with(command + text, number + text), "broken EXR: an attribute has another size than its type");
+    const std::string preview = "command" + zero + "preview" + zero + bytes_of_u32(12) + bytes_of_u32(1);
+    EXPECT_EQ(error_with(command + text, preview + bytes_of_u32(1) + "rgba"), "no error");
+    EXPECT_EQ(error_with(command + text, preview + bytes_of_u32(2) + "rgba"),
+              "broken EXR: its preview has another size");
+}
+
+TEST_F(Codec, OnlyRegularFilesAreRead) {
+    ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+    EXPECT_EQ(error_of([&] { read_linear(folder_ / "pipe"); }), "is not a regular file");
+    EXPECT_EQ(error_of([&] { read_linear("/dev/zero"); }), "is not a regular file");
+    EXPECT_EQ(error_of([&] { read_linear(folder_); }), "is a folder, not a file");
 }
 
 TEST_F(Codec, FailedWritesLeaveTheOldFile) {

@@ -234,8 +234,10 @@ TEST(Png, TransparentColours) {
 TEST(Png, LimitsAreNamed) {
     std::mt19937 random(4);
     const Bytes bytes = encode(random_png(rgb, 8, 255, random));
-    EXPECT_EQ(outcome(bytes, {12, 1000}), "the picture has 13x11 pixels; the limit is 12 a side and 1000 in all");
-    EXPECT_EQ(outcome(bytes, {13, 142}), "the picture has 13x11 pixels; the limit is 13 a side and 142 in all");
+    EXPECT_EQ(outcome(bytes, {12, 1000}),
+              "the picture has 13x11 pixels; the limit is 12 a side and 1000 in all; --limit-image raises it");
+    EXPECT_EQ(outcome(bytes, {13, 142}),
+              "the picture has 13x11 pixels; the limit is 13 a side and 142 in all; --limit-image raises it");
     EXPECT_EQ(outcome(bytes, {13, 143}), "decoded");
     // A header that promises what no memory could hold.
     Png huge;
@@ -374,7 +376,8 @@ TEST(Jpeg, DamageIsSaidAndQuirksAreNot) {
     Bytes extra = whole;
     extra.insert(extra.begin() + 20, 5, std::byte{0});
     EXPECT_EQ(outcome(extra), "decoded");
-    EXPECT_EQ(outcome(whole, {23, 1000}), "the picture has 24x16 pixels; the limit is 23 a side and 1000 in all");
+    EXPECT_EQ(outcome(whole, {23, 1000}),
+              "the picture has 24x16 pixels; the limit is 23 a side and 1000 in all; --limit-image raises it");
 }
 
 TEST(Jpeg, FilesOfVeryManyScansAreRefused) {
@@ -418,7 +421,8 @@ TEST(Webp, LosslessAndLossyWithAlpha) {
         for (int c = 0; c < 3; ++c)
             ASSERT_NEAR(back.pixels()[i][c], image.pixels()[i][c], 16) << "colour is subsampled";
     }
-    EXPECT_EQ(outcome(lossy, {23, 1000}), "the picture has 24x16 pixels; the limit is 23 a side and 1000 in all");
+    EXPECT_EQ(outcome(lossy, {23, 1000}),
+              "the picture has 24x16 pixels; the limit is 23 a side and 1000 in all; --limit-image raises it");
     const Bytes cut(lossy.begin(), lossy.end() - static_cast<std::ptrdiff_t>(lossy.size() / 3));
     EXPECT_NE(outcome(cut).find("broken WebP"), std::string::npos) << outcome(cut);
 }

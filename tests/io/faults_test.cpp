@@ -103,7 +103,7 @@ TEST_F(Faults, Json) {
     EXPECT_NE(failure_of_text("{\"a\": \"\xff\"}").find("malformed JSON"), std::string::npos);
     const std::string deep = std::string(100000, '[') + std::string(100000, ']');
     EXPECT_EQ(failure_of_text("{\"extras\":" + deep + "}"),
-              ": JSON is nested deeper than 128 levels at line 1, column 138");
+              ": JSON is nested deeper than the limit of 128 levels at line 1, column 138; --limit-nesting raises it");
     EXPECT_EQ(failure_of_text("\xef\xbb\xbf{\"asset\":{\"version\":\"2.0\"}}"), "loaded") << "a byte order mark";
     // Brackets in strings do not nest.
     EXPECT_EQ(failure_of_text("{\"asset\":{\"version\":\"2.0\",\"generator\":\"\\\"" + std::string(500, '[') + "\"}}"),

@@ -3,10 +3,10 @@
 // Whatever loads must keep what the renderer relies on; what does not must end in LoadError.
 #include <random>
 
-#include "renderer/io/materials.h"
 #include "renderer/scene/animation.h"
 #include "renderer/scene/pose.h"
 #include "tests/io/document.h"
+#include "tests/support/soundness.h"
 
 namespace candela {
 namespace {
@@ -123,44 +123,7 @@ Document everything() {
 }
 
 void expect_sound(const Scene& scene, const std::string& what) {
-    for (const std::shared_ptr<const Mesh>& mesh : scene.meshes) {
-        for (const Primitive& p : mesh->primitives) {
-            const size_t n = p.positions.size();
-            ASSERT_TRUE(p.flat_normals ? p.normals.empty() : p.normals.size() == n) << what;
-            ASSERT_TRUE(p.tangents.empty() || p.tangents.size() == n) << what;
-            ASSERT_TRUE(p.uv[0].empty() || p.uv[0].size() == n) << what;
-            ASSERT_TRUE(p.uv[1].empty() || p.uv[1].size() == n) << what;
-            ASSERT_TRUE(p.colors.empty() || p.colors.size() == n) << what;
-            for (const Vec3u& t : p.triangles)
-                ASSERT_LT(std::max({t.x, t.y, t.z}), n) << what;
-            for (const Vec3& position : p.positions)
-                ASSERT_TRUE(is_finite(position)) << what;
-            for (const Vec3& normal : p.normals)
-                ASSERT_NEAR(glm::length(normal), 1.0f, 1e-4f) << what;
-            for (const Vec4& tangent : p.tangents)
-                ASSERT_NEAR(glm::length(Vec3(tangent)), 1.0f, 1e-4f) << what;
-            ASSERT_TRUE(!p.material.valid() || p.material.value < scene.materials.size()) << what;
-        }
-    }
-    for (const Material& m : scene.materials) {
-        for (const TextureSlot& slot : texture_slots(m)) {
-            const TextureRef* ref = slot.ref;
-            ASSERT_LT(ref->texture.value, scene.textures.size()) << what;
-            ASSERT_LT(ref->uv_set, 2u) << what;
-            ASSERT_LT(scene.textures[ref->texture.value].image.value, scene.images.size()) << what;
-        }
-        ASSERT_TRUE(std::isfinite(m.emissive_strength) && (m.ior >= 1.0f || m.ior == 0.0f) &&
-                    m.roughness_factor >= 0.0f)
-            << what;
-    }
-    for (const Instance& instance : scene.instances) {
-        ASSERT_LT(instance.mesh.value, scene.meshes.size()) << what;
-        ASSERT_TRUE(is_finite(Vec3(instance.world_from_object[0]))) << what;
-    }
-    for (const LightInstance& light : scene.light_instances)
-        ASSERT_LT(light.light.value, scene.lights.size()) << what;
-    for (const CameraInstance& camera : scene.cameras)
-        ASSERT_NEAR(glm::determinant(Mat3(camera.camera.world_from_camera)), 1.0f, 1e-3f) << what;
+    ASSERT_EQ(unsoundness_of(scene), "") << what;
 }
 
 class Hostile : public GltfTest {

@@ -154,6 +154,8 @@ TEST_F(Nodes, LightsArePlaced) {
     EXPECT_EQ(lamp.outer_cone_radians, 0.5f);
     EXPECT_EQ(scene.lights[2].intensity, 0.0f);
     EXPECT_TRUE(warned("/extensions/KHR_lights_punctual/lights/2", "negative"));
+    EXPECT_TRUE(warned("/extensions/KHR_lights_punctual/lights/0", "is on no node")) << all_warnings();
+    EXPECT_FALSE(warned("/extensions/KHR_lights_punctual/lights/1", "is on no node"));
     ASSERT_EQ(scene.light_instances.size(), 1u);
     EXPECT_EQ(scene.light_instances[0].light.value, 1u);
     EXPECT_EQ(Vec3(scene.light_instances[0].world_from_light[3]), Vec3(0, 4, 0));
