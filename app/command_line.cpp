@@ -74,10 +74,20 @@ void add_limit_options(CLI::App& command, LoadLimits& limits) {
         ->group(group);
 }
 
+// "0:23"
+FrameRange parse_frames(const std::string& text) {
+    FrameRange out;
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%7u:%7u%c", &out.first, &out.last, &rest) != 2 || out.first > out.last ||
+        !std::isdigit(static_cast<unsigned char>(text.front()))) {
+        throw usage("--frames " + text + ": is not of the form FIRST:LAST with FIRST up to LAST, as in 0:23");
+    }
+    return out;
+}
+
 // Options as text, turned into values once CLI11 has read them.
 struct RawRenderOptions {
-    std::string resolution, eye, target, up, sky, background, aov, animation;
-    double at_seconds = 0;
+    std::string resolution, eye, target, up, sky, background, aov, frames;
 };
 
 void add_render_options(CLI::App& command, RenderOptions& options, RawRenderOptions& raw) {
@@ -154,8 +164,11 @@ void add_render_options(CLI::App& command, RenderOptions& options, RawRenderOpti
         ->transform(CLI::CheckedTransformer(curves));
     command.add_option("--scene", options.scene_index, "which scene of the file")->type_name("N");
     command.add_option("--variant", options.variant, "which material variant of the file")->type_name("NAME");
-    command.add_option("--animation", raw.animation, "which animation")->type_name("NAME|INDEX");
-    command.add_option("--at", raw.at_seconds, "at which time of the animation")->type_name("SECONDS");
+    command.add_option("--animation", options.animation, "poses the scene by that animation of the file")
+        ->type_name("NAME|INDEX");
+    command.add_option("--at", options.at_seconds, "at which time of the animation (0)")
+        ->check(CLI::Range(0.0, 1e9))
+        ->type_name("SECONDS");
     command
         .add_option("--aov", raw.aov,
                     "extra .exr layers: albedo,normal,depth,position,uv,material,instance,samples,variance")
@@ -167,9 +180,8 @@ void add_render_options(CLI::App& command, RenderOptions& options, RawRenderOpti
 }
 
 void finish_render_options(const RawRenderOptions& raw, RenderOptions& options) {
-    if (!raw.animation.empty() || raw.at_seconds != 0) {
-        throw usage("--animation: animations are not supported yet; leave --animation and --at out");
-    }
+    if (!raw.frames.empty()) options.frames = parse_frames(raw.frames);
+    if (options.frames && options.at_seconds) throw usage("--frames and --at exclude each other; give one of them");
     if (!raw.resolution.empty()) options.resolution = parse_resolution(raw.resolution);
     if (!raw.eye.empty()) options.eye = parse_vec3("--eye", raw.eye);
     if (!raw.target.empty()) options.target = parse_vec3("--target", raw.target);
@@ -224,6 +236,13 @@ ExitStatus dispatch(int argc, char** argv) {
     render_command->add_option("-o,--output", render.output, "ends in .png, .exr or .hdr")
         ->required()
         ->type_name("OUT");
+    render_command
+        ->add_option("--frames", raw.frames,
+                     "pictures A to B of the animation, as OUT_0000.png and so on; picture k shows the time k / fps")
+        ->type_name("A:B");
+    render_command->add_option("--fps", render.fps, "pictures a second of the animation (30)")
+        ->check(CLI::Range(1e-3, 1e6))
+        ->type_name("N");
 
     InfoOptions info;
     CLI::App* info_command = app.add_subcommand("info", "what the file holds and how each extension is treated");

@@ -13,6 +13,11 @@
 
 namespace candela {
 
+// First and last, both rendered.
+struct FrameRange {
+    uint32_t first = 0, last = 0;
+};
+
 // Options that view, render and screenshot share.
 struct RenderOptions {
     std::string scene;    // empty: the Cornell box
@@ -36,7 +41,11 @@ struct RenderOptions {
     ToneSettings tone;
     LoadLimits limits;
     std::optional<uint32_t> scene_index;
-    std::string variant;  // empty: each primitive's own material
+    std::string variant;               // empty: each primitive's own material
+    std::string animation;             // name or index; empty: the first where a time is given
+    std::optional<double> at_seconds;  // of the animation
+    std::optional<FrameRange> frames;  // pictures of the animation, numbered
+    double fps = 30;                   // picture k shows the time k / fps
     std::vector<std::string> aovs;
     std::string stats_file;  // "-": standard output
     std::string output;

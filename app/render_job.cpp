@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "app/exit_status.h"
+#include "app/pose_choice.h"
 #include "renderer/image/codec.h"
 #include "renderer/io/load_gltf.h"
 
@@ -108,6 +109,11 @@ Vec2u choose_extent(const RenderOptions& options, const Camera& camera) {
     return {static_cast<uint32_t>(std::clamp(std::lround(aspect * height), 1l, 8192l)), height};
 }
 
+// Of the animation that the options choose.
+double first_time_s(const RenderOptions& options) {
+    return options.frames ? options.frames->first / options.fps : options.at_seconds.value_or(0.0);
+}
+
 // Calls make(), which builds a world, and books it in the job.
 void make_job_world(RenderJob& job, const std::atomic<bool>* cancel,
                     const std::function<std::shared_ptr<const World>()>& make) {
@@ -165,9 +171,24 @@ std::filesystem::path default_scene() {
     return assets_folder() / "cornell_box.glb";
 }
 
+void show_pose(RenderJob& job, const RenderOptions& options, uint32_t animation, double time_s,
+               const std::atomic<bool>* cancel) {
+    std::vector<std::string> warnings;
+    const std::shared_ptr<const Scene> scene = scene_at(job.rest, animation, time_s, warnings);
+    BuildOptions build;
+    build.cancel = cancel;
+    make_job_world(job, cancel, [&] { return with_pose(job.world, scene, build); });
+    job.request.world = job.world;
+    // A view that was framed or given stays.
+    if (!options.eye && !scene->cameras.empty()) {
+        job.request.view.camera = choose_camera(options, *scene, job.world->bounds);
+    }
+}
+
 void show_variant(RenderJob& job, std::optional<uint32_t> variant, const std::atomic<bool>* cancel) {
-    auto scene = std::make_shared<Scene>(*job.world->scene);
-    scene->active_variant = variant;
+    auto scene = std::make_shared<Scene>(*job.world->scene), rest = std::make_shared<Scene>(*job.rest);
+    scene->active_variant = rest->active_variant = variant;
+    job.rest = rest;
     BuildOptions build;
     build.cancel = cancel;
     make_job_world(job, cancel, [&] { return with_pose(job.world, scene, build); });
@@ -203,6 +224,8 @@ RenderJob prepare_render(const RenderOptions& options, const std::function<void(
     job.load_seconds = seconds_since(load_start);
 
     job.environment = choose_environment(options, *scene, job.warnings);
+    job.rest = scene;
+    scene = scene_at(scene, choose_animation(options, *scene), first_time_s(options), job.warnings);
     BuildOptions build;
     build.environment = place_environment(job.environment.get(), options);
     build.cancel = cancel;

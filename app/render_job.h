@@ -13,6 +13,7 @@ namespace candela {
 
 struct RenderJob {
     std::string scene_path;
+    std::shared_ptr<const Scene> rest;  // as loaded, before any animation
     std::shared_ptr<const World> world;
     // As read, without --hdri-rotation and --hdri-intensity; null where only the scene's own lights shine.
     std::shared_ptr<const Environment> environment;
@@ -29,6 +30,10 @@ std::filesystem::path default_scene();
 // Loads the scene and builds its world. progress: step, 0..1. Throws CommandError (unreadable scene, wrong usage).
 RenderJob prepare_render(const RenderOptions& options, const std::function<void(const char*, double)>& progress,
                          const std::atomic<bool>* cancel);
+
+// Shows another moment of the animation: a new world, and the file's camera where it now stands. Throws CommandError.
+void show_pose(RenderJob& job, const RenderOptions& options, uint32_t animation, double time_s,
+               const std::atomic<bool>* cancel);
 
 // Shows the job's scene with the materials of another variant (none: each primitive's own): a new world, of the same
 // geometry. Throws CommandError.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "app/scene_facts.h"
 
+#include "app/motion_facts.h"
+
 #include <nlohmann/json.hpp>
 
-#include "renderer/scene/animation.h"
 
 namespace candela {
 
@@ -163,9 +164,7 @@ OrderedJson describe_scene(const Scene& scene, const Diagnostics& diagnostics) {
     out["meshes"] = describe_meshes(scene);
     out["cameras"] = describe_cameras(scene);
     out["lights"] = describe_lights(scene);
-    out["animations"] = OrderedJson::array();
-    for (const std::shared_ptr<const Animation>& animation : scene.animations)
-        out["animations"].push_back(animation->name);
+    describe_motion(scene, out);
     out["extensions"] = OrderedJson::array();
     for (const ExtensionUse& use : scene.extensions) {
         out["extensions"].push_back(

@@ -44,7 +44,8 @@ std::string statistics_json(const RunRecord& record) {
                       {"render", record.status.render_seconds},
                       {"write", record.write_seconds},
                       {"first_frame", record.first_frame_seconds}};
-    out["samples"] = film.total_samples;
+    if (record.pictures) out["pictures"] = *record.pictures;
+    out["samples"] = film.total_samples + record.earlier_samples;
     out["rays"] = {{"camera", record.status.rays.camera},
                    {"bounce", record.status.rays.bounce},
                    {"shadow", record.status.rays.shadow}};

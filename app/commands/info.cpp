@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/motion_facts.h"
 #include "app/scene_facts.h"
 #include "renderer/io/load_gltf.h"
 
@@ -39,7 +40,7 @@ class Printer {
         print_choices("scene", "scenes", scene_.scene_names, scene_.active_scene);
         print_choices("variant", "variants", scene_.variant_names, scene_.active_variant);
         print_cameras_and_lights();
-        print_animations();
+        print_motion(facts_);
         print_extensions();
         print_metadata();
         print_tree();
@@ -100,14 +101,6 @@ class Printer {
                        light["intensity"].get<double>(), text_of(light["unit"]));
         }
         print_rest(lights.size());
-    }
-
-    void print_animations() const {
-        const OrderedJson& animations = facts_["animations"];
-        if (!animations.empty()) fmt::print("animations\n");
-        for (size_t i = 0; i < animations.size() && i < limit_; ++i)
-            fmt::print("  {}: {}\n", i, named(text_of(animations[i]), "animation", i));
-        print_rest(animations.size());
     }
 
     void print_extensions() const {

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <filesystem>
 
 #include "app/clock_text.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/picture_file.h"
+#include "app/pose_choice.h"
 #include "app/progress_bar.h"
 #include "app/render_job.h"
 #include "app/statistics_file.h"
@@ -100,58 +102,127 @@ double fraction_done(const RenderRequest& request, const SessionStatus& status) 
     return fraction;
 }
 
+// "walk_0012.png" of "walk.png"
+std::string numbered(const std::string& path, uint32_t number) {
+    const std::filesystem::path whole(path);
+    return (whole.parent_path() / fmt::format("{}_{:04}{}", whole.stem().string(), number, whole.extension().string()))
+        .string();
+}
+
+// Renders pictures one after the other and keeps what the record of the run needs.
+class Pictures {
+  public:
+    Pictures(const RenderOptions& options, Clock::time_point start)
+        : options_(options), start_(start), session_(session_options(options)), bar_(options.quiet, options.verbose) {}
+
+    ProgressBar& bar() { return bar_; }
+    // step: what the progress bar says. complete: a picture that was interrupted is not written.
+    void render(const RenderJob& job, const std::string& path, const std::string& step, bool complete);
+    void write_record(const RenderJob& job, std::optional<uint32_t> pictures) const;
+
+  private:
+    static SessionOptions session_options(const RenderOptions& options) {
+        SessionOptions out;
+        out.threads = options.threads;
+        out.publish_frames = false;
+        return out;
+    }
+
+    const RenderOptions& options_;
+    Clock::time_point start_;
+    RenderSession session_;
+    ProgressBar bar_;
+    SessionStatus total_;           // seconds and rays of all pictures
+    const Frame* frame_ = nullptr;  // the session's, of the last picture
+    double write_seconds_ = 0, first_frame_seconds_ = 0;
+    uint64_t earlier_samples_ = 0;
+};
+
+void Pictures::render(const RenderJob& job, const std::string& path, const std::string& step, bool complete) {
+    const double before_render = std::chrono::duration<double>(Clock::now() - start_).count();
+    session_.submit(job.request);
+    while (!session_.wait_until_done(0.05)) {
+        if (InterruptGuard::interrupted()) session_.stop();
+        const SessionStatus status = session_.status();
+        const double fraction = fraction_done(job.request, status);
+        const double left = fraction > 0.01 ? status.render_seconds * (1 - fraction) / fraction : 0;
+        bar_.show(step, fraction,
+                  fmt::format("{} spp  {}{}  {:.1f} Mrays/s", status.spp, clock_text(status.render_seconds),
+                              left > 0 ? ", " + clock_text(left) + " left" : "", status.rays_per_second * 1e-6));
+    }
+    bar_.clear();
+    const SessionStatus status = session_.status();
+    if (!status.error.empty())
+        throw CommandError(ExitStatus::internal_error, status.error + "; ask for a smaller --resolution");
+    if (complete && InterruptGuard::interrupted()) return;
+    if (frame_ != nullptr) earlier_samples_ += frame_->statistics.total_samples;
+    if (frame_ == nullptr) first_frame_seconds_ = before_render + status.render_seconds;
+    frame_ = session_.latest();
+    const SessionStatus before = total_;
+    total_ = status;
+    total_.render_seconds += before.render_seconds;
+    total_.rays += before.rays;
+
+    const Clock::time_point write_start = Clock::now();
+    RenderOptions to = options_;
+    to.output = path;
+    write_picture(to, job, *frame_, session_);
+    write_seconds_ += std::chrono::duration<double>(Clock::now() - write_start).count();
+    const FilmStatistics& film = frame_->statistics;
+    if (film.non_finite > 0) {
+        fmt::print(stderr, "candela: warning: {} samples were not finite and do not count\n", film.non_finite);
+    }
+    if (!options_.quiet && options_.stats_file != "-") {
+        fmt::print("{}: {}x{}, {:.4g} spp in {:.2f} s, estimated error {}{}\n", path, frame_->image.width(),
+                   frame_->image.height(), film.mean_samples, status.render_seconds,
+                   std::isfinite(film.relative_error) ? fmt::format("{:.2f} %", 100 * film.relative_error) : "unknown",
+                   job.request.settings.biased() ? ", biased" : "");
+        std::fflush(stdout);
+    }
+}
+
+void Pictures::write_record(const RenderJob& job, std::optional<uint32_t> pictures) const {
+    if (frame_ == nullptr) return;
+    write_statistics(
+        {&options_, &job, total_, frame_, write_seconds_, first_frame_seconds_, pictures, earlier_samples_});
+}
+
 }  // namespace
 
 ExitStatus run_render(const RenderOptions& options) {
     const Clock::time_point start = Clock::now();
     check_options(options);
     const InterruptGuard guard;
-    ProgressBar bar(options.quiet, options.verbose);
-    const RenderJob job = prepare_render(
-        options, [&](const char* step, double fraction) { bar.show(step, fraction); }, InterruptGuard::flag());
-    bar.clear();
+    Pictures pictures(options, start);
+    RenderJob job = prepare_render(
+        options, [&](const char* step, double fraction) { pictures.bar().show(step, fraction); },
+        InterruptGuard::flag());
+    pictures.bar().clear();
     if (!options.quiet) {
         for (const std::string& warning : job.warnings)
             fmt::print(stderr, "candela: warning: {}\n", warning);
     }
+    if (!options.frames) {
+        pictures.render(job, options.output, "render", false);
+        pictures.write_record(job, std::nullopt);
+        return InterruptGuard::interrupted() ? ExitStatus::interrupted : ExitStatus::done;
+    }
 
-    SessionOptions session_options;
-    session_options.threads = options.threads;
-    session_options.publish_frames = false;
-    RenderSession session(session_options);
-    const double before_render = std::chrono::duration<double>(Clock::now() - start).count();
-    session.submit(job.request);
-    while (!session.wait_until_done(0.05)) {
-        if (InterruptGuard::interrupted()) session.stop();
-        const SessionStatus status = session.status();
-        const double fraction = fraction_done(job.request, status);
-        const double left = fraction > 0.01 ? status.render_seconds * (1 - fraction) / fraction : 0;
-        bar.show("render", fraction,
-                 fmt::format("{} spp  {}{}  {:.1f} Mrays/s", status.spp, clock_text(status.render_seconds),
-                             left > 0 ? ", " + clock_text(left) + " left" : "", status.rays_per_second * 1e-6));
+    // One picture after the other; the first pose is the job's already.
+    const uint32_t animation = choose_animation(options, *job.rest).value_or(0);
+    const auto [first, last] = *options.frames;
+    uint32_t written = 0;
+    for (uint32_t k = first; k <= last && !InterruptGuard::interrupted(); ++k) {
+        const double build_seconds = job.build_seconds;
+        if (k != first) {
+            show_pose(job, options, animation, k / options.fps, InterruptGuard::flag());
+            job.build_seconds += build_seconds;
+        }
+        pictures.render(job, numbered(options.output, k),
+                        fmt::format("picture {} of {}", k - first + 1, last - first + 1), true);
+        if (!InterruptGuard::interrupted()) ++written;
     }
-    bar.clear();
-    const SessionStatus status = session.status();
-    if (!status.error.empty())
-        throw CommandError(ExitStatus::internal_error, status.error + "; ask for a smaller --resolution");
-    const Frame& frame = *session.latest();
-
-    const Clock::time_point write_start = Clock::now();
-    write_picture(options, job, frame, session);
-    const double write_seconds = std::chrono::duration<double>(Clock::now() - write_start).count();
-    write_statistics({&options, &job, status, &frame, write_seconds, before_render + status.render_seconds});
-    if (frame.statistics.non_finite > 0) {
-        fmt::print(stderr, "candela: warning: {} samples were not finite and do not count\n",
-                   frame.statistics.non_finite);
-    }
-    if (!options.quiet && options.stats_file != "-") {
-        fmt::print("{}: {}x{}, {:.4g} spp in {:.2f} s, estimated error {}{}\n", options.output, frame.image.width(),
-                   frame.image.height(), frame.statistics.mean_samples, status.render_seconds,
-                   std::isfinite(frame.statistics.relative_error)
-                       ? fmt::format("{:.2f} %", 100 * frame.statistics.relative_error)
-                       : "unknown",
-                   job.request.settings.biased() ? ", biased" : "");
-    }
+    pictures.write_record(job, written);
     return InterruptGuard::interrupted() ? ExitStatus::interrupted : ExitStatus::done;
 }
 

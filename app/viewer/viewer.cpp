@@ -62,6 +62,8 @@ RenderOptions Viewer::options_for(const std::string& path) const {
     options.projection.reset();
     options.scene_index.reset();
     options.variant.clear();
+    options.animation.clear();
+    options.at_seconds.reset();
     return options;
 }
 
