@@ -15,7 +15,7 @@ struct RunRecord {
     double write_seconds = 0;
     double first_frame_seconds = 0;  // from the start of the program to the first frame
     // Of several pictures: how many there are, and the samples of all but the last, to which frame belongs.
-    std::optional<uint32_t> pictures;
+    std::optional<uint32_t> pictures = std::nullopt;
     uint64_t earlier_samples = 0;
 };
 

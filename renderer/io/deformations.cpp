@@ -66,14 +66,14 @@ void DeformationLoader::load_targets(Deformation& out) {
         const std::map<std::string, int>& target = source_.targets[t];
         MorphTarget& morph = out.targets.emplace_back();
         morph.positions = differences(target, "POSITION", place);
-        // Flat normals follow from the positions, tangents that are not the file's from the shape as modelled, and those
-        // of points and lines from their bodies.
+        // Flat normals follow from the positions, tangents that are not the file's from the shape as modelled, and
+        // those of points and lines from their bodies.
         if (primitive_.shape != PrimitiveShape::surface) continue;
         if (!primitive_.normals.empty()) morph.normals = differences(target, "NORMAL", place);
         if (!primitive_.tangents.empty()) morph.tangents = differences(target, "TANGENT", place);
         for (const auto& [name, accessor] : target) {
             if (name == "POSITION" || name == "NORMAL" || name == "TANGENT") continue;
-            context_.warn(place + "/" + name, "morph targets of this attribute are ignored");
+            context_.warn(place, "its differences of " + name.substr(0, 40) + " are ignored");
         }
     }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/scene/animation.h"
 
+#include "renderer/math/math.h"
+
 namespace candela {
 namespace {
 
