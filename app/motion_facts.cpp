@@ -68,9 +68,18 @@ std::string summary(const OrderedJson& channels) {
     return out;
 }
 
-std::string title(const OrderedJson& named, size_t index) {
+std::string title(const OrderedJson& named, const char* kind, size_t index) {
     const auto name = named["name"].get<std::string>();
-    return name.empty() ? std::to_string(index) : fmt::format("{} \"{}\"", index, name);
+    return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} \"{}\"", kind, name);
+}
+
+// A heading and a line for each, as many as the limit allows.
+template <typename Line>
+void print_list(const char* heading, const OrderedJson& list, size_t limit, const Line& line) {
+    if (!list.empty()) fmt::print("{}\n", heading);
+    for (size_t i = 0; i < list.size() && i < limit; ++i)
+        fmt::print("  {}: {}\n", i, line(list[i], i));
+    if (list.size() > limit) fmt::print("  and {} more; -v lists them\n", list.size() - limit);
 }
 
 }  // namespace
@@ -101,22 +110,21 @@ void describe_motion(const Scene& scene, OrderedJson& out) {
     }
 }
 
-void print_motion(const OrderedJson& facts) {
-    for (size_t i = 0; i < facts["animations"].size(); ++i) {
-        const OrderedJson& animation = facts["animations"][i];
-        fmt::print("  animation {}: {:.4g} s, {} channels; drives {}\n", title(animation, i),
-                   animation["duration_s"].get<double>(), animation["channels"].size(),
-                   animation["channels"].empty() ? "nothing" : summary(animation["channels"]));
-    }
-    for (size_t i = 0; i < facts["skins"].size(); ++i) {
-        const OrderedJson& skin = facts["skins"][i];
-        fmt::print("  skin {}: {} joints, on {} nodes\n", title(skin, i), skin["joints"].get<size_t>(),
-                   skin["nodes"].size());
-    }
-    for (const OrderedJson& morph : facts["morph_targets"]) {
-        fmt::print("  mesh {}: {} morph targets\n", title(morph, morph["mesh"].get<size_t>()),
-                   morph["targets"].get<size_t>());
-    }
+void print_motion(const OrderedJson& facts, size_t limit) {
+    print_list("animations", facts["animations"], limit, [](const OrderedJson& animation, size_t i) {
+        const OrderedJson& channels = animation["channels"];
+        return fmt::format("{}, {:.4g} s, {} channels, drives {}", title(animation, "animation", i),
+                           animation["duration_s"].get<double>(), channels.size(),
+                           channels.empty() ? "nothing" : summary(channels));
+    });
+    print_list("skins", facts["skins"], limit, [](const OrderedJson& skin, size_t i) {
+        return fmt::format("{}, {} joints, on {} nodes", title(skin, "skin", i), skin["joints"].get<size_t>(),
+                           skin["nodes"].size());
+    });
+    print_list("morph targets", facts["morph_targets"], limit, [](const OrderedJson& morph, size_t) {
+        return fmt::format("{}, {} targets", title(morph, "mesh", morph["mesh"].get<size_t>()),
+                           morph["targets"].get<size_t>());
+    });
 }
 
 }  // namespace candela

@@ -12,7 +12,7 @@ namespace candela {
 // and "morph_targets" (mesh, how many, and the weights it begins with).
 void describe_motion(const Scene& scene, nlohmann::ordered_json& out);
 
-// The same as text, from what describe_motion wrote.
-void print_motion(const nlohmann::ordered_json& facts);
+// The same as text, from what describe_motion wrote; at most limit lines of each kind.
+void print_motion(const nlohmann::ordered_json& facts, size_t limit);
 
 }  // namespace candela

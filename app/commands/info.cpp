@@ -40,7 +40,7 @@ class Printer {
         print_choices("scene", "scenes", scene_.scene_names, scene_.active_scene);
         print_choices("variant", "variants", scene_.variant_names, scene_.active_variant);
         print_cameras_and_lights();
-        print_motion(facts_);
+        print_motion(facts_, limit_);
         print_extensions();
         print_metadata();
         print_tree();

@@ -128,7 +128,8 @@ TEST_F(AnimationCommand, InterruptedFramesKeepWhatIsDone) {
 
 TEST_F(AnimationCommand, InfoTellsWhatMoves) {
     const Outcome text = run("info " + file("scene.gltf"));
-    EXPECT_NE(text.text.find("animation 0 \"slide\": 1 s, 1 channels; drives 1 nodes (translation)"), std::string::npos)
+    EXPECT_NE(text.text.find("0: animation \"slide\", 1 s, 1 channels, drives 1 nodes (translation)"),
+              std::string::npos)
         << text.text;
     EXPECT_EQ(text.text.find("warning"), std::string::npos) << text.text;
     const nlohmann::json facts = nlohmann::json::parse(run("info --json " + file("scene.gltf")).text);
