@@ -10,7 +10,8 @@
 namespace candela {
 
 // scene, scenes, active_scene, variants, active_variant, counts, triangles, placed_triangles, strokes, vertex_bytes,
-// estimated_bytes, bounds, nodes, meshes, cameras, lights, animations, skins, morph_targets, extensions, metadata, warnings.
+// estimated_bytes, bounds, nodes, meshes, cameras, lights, animations, skins, morph_targets, extensions, metadata,
+// warnings.
 nlohmann::ordered_json describe_scene(const Scene& scene, const Diagnostics& diagnostics);
 
 }  // namespace candela
