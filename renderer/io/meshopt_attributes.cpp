@@ -151,7 +151,7 @@ class AttributesDecoder {
     std::array<std::array<uint8_t, 256>, 4> deltas_{};
 };
 
-template <typename Unsigned, typename Signed>
+template <typename Unsigned>
 void decode_colors(std::span<std::byte> elements) {
     constexpr auto largest = static_cast<float>(static_cast<Unsigned>(~Unsigned{0}));
     for (uint64_t at = 0; at + 4 * sizeof(Unsigned) <= elements.size(); at += 4 * sizeof(Unsigned)) {
@@ -160,7 +160,12 @@ void decode_colors(std::span<std::byte> elements) {
         // The highest bit of alpha tells how many bits there are; without one nothing can be read from it.
         const auto scale_bits = std::max<unsigned>(std::bit_width(static_cast<uint32_t>(in[3])), 1);
         const int one = (1 << scale_bits) - 1;
-        const int y = in[0], co = static_cast<Signed>(in[1]), cg = static_cast<Signed>(in[2]);
+        // Two's complement of as many bits as a component has.
+        const auto signed_value = [](Unsigned value) {
+            constexpr int unused_bits = 32 - 8 * static_cast<int>(sizeof(Unsigned));
+            return static_cast<int32_t>(uint32_t{value} << unused_bits) >> unused_bits;
+        };
+        const int y = in[0], co = signed_value(in[1]), cg = signed_value(in[2]);
         int alpha = in[3] & (one >> 1);
         alpha = (alpha << 1) | (alpha & 1);
         const int rgba[4] = {y + co - cg, y + cg, y - co - cg, alpha};
@@ -193,9 +198,9 @@ bool decode_attributes_v1(std::span<const std::byte> encoded, uint64_t count, ui
 
 void decode_color_filter(std::span<std::byte> elements, uint64_t stride) {
     if (stride == 4) {
-        decode_colors<uint8_t, int8_t>(elements);
+        decode_colors<uint8_t>(elements);
     } else {
-        decode_colors<uint16_t, int16_t>(elements);
+        decode_colors<uint16_t>(elements);
     }
 }
 
