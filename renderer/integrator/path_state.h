@@ -14,7 +14,9 @@ struct PathState {
     Vec3 radiance{0};    // gathered so far
     float alpha = 1;
     Sampler sampler;
-    MediumSet media;  // what the segment runs through
+    MediumSet media;          // what the segment runs through
+    RayCone cone;             // around ray: for texture footprints alone
+    float texture_share = 0;  // of a footprint, for this sample; 0: textures are not filtered
     // Where ray.direction was drawn, as the light sampler saw it: thin glass and hidden boundaries only move the ray's
     // start.
     LightReceiver vertex;

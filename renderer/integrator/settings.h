@@ -23,6 +23,7 @@ struct IntegratorSettings {
     BackgroundKind background = BackgroundKind::environment;
     Vec3 background_color{0};
     bool russian_roulette = true;
+    bool filter_textures = true;  // over what a sample stands for (texture.h); false: every lookup at level 0
 
     bool biased() const { return clamp_indirect > 0.0f || max_depth > 0; }
     bool operator==(const IntegratorSettings&) const = default;

@@ -24,6 +24,9 @@ constexpr float filter_radius = 1.5f;
 constexpr uint32_t roulette_depth = 3;
 constexpr float max_survival = 0.95f;
 
+// The width of the cone around a sample of a lobe, in units of the root of the solid angle that it stands for.
+constexpr float lobe_cone_share = 0.25f;
+
 // A path that meets so many surfaces runs in circles between boundaries that no light leaves: rounding, not optics.
 constexpr uint32_t most_segments = 1u << 16;
 
@@ -109,6 +112,14 @@ Boundary meet_boundary(const World& world, uint32_t medium, bool entering, float
     return out;
 }
 
+// What the path's bundle covers at the end of the segment, where its next segment starts.
+RayFootprint footprint_at(float distance_m, PathState& path) {
+    if (!(path.texture_share > 0.0f)) return {};
+    path.cone.width_m = path.cone.width_at(distance_m);
+    return {path.cone.width_m, path.texture_share,
+            unit_float(hash_combine(path.sampler.hash() ^ 0x3c6ef372u, path.segments))};
+}
+
 // Sends the path on in its direction from the other side of the surface.
 void pass_straight(const SurfacePoint& point, PathState& path) {
     path.ray.origin = offset_ray_origin(point.position, -point.geometric_normal, point.error_m);
@@ -185,6 +196,10 @@ PathState begin_path(const View& view, const IntegratorSettings& settings, Pixel
     const Vec2 extent(view.extent);
     const Vec2 film_uv = (Vec2(sample.x, sample.y) + 0.5f + offset) / extent;
     path.ray = generate_ray(view.camera, extent.x / extent.y, film_uv, path.sampler.next_2d());
+    if (settings.filter_textures) {
+        path.cone = pixel_cone(view.camera, view.extent.y, path.ray);
+        path.texture_share = 1.0f / static_cast<float>(sample.index + 1);
+    }
     return path;
 }
 
@@ -199,7 +214,7 @@ ShadowRequest shade(const World& world, const IntegratorSettings& settings, cons
         return {};
     }
     const Vec3 wo_world = -path.ray.direction;
-    const SurfacePoint point = make_surface_point(world, hit, wo_world);
+    const SurfacePoint point = make_surface_point(world, hit, wo_world, footprint_at(hit.distance, path));
     if (!path.media.empty()) path.throughput *= transmittance_of(world, path.media.present(world), hit.distance);
 
     // All random numbers of this vertex, at fixed dimensions.
@@ -268,6 +283,10 @@ ShadowRequest shade(const World& world, const IntegratorSettings& settings, cons
     if (scattered.is_straight) {
         pass_straight(point, path);
     } else {
+        // What a sample of a lobe stands for is the solid angle 1/pdf, of which the cone takes a careful part.
+        if (!scattered.is_delta) {
+            path.cone.spread_radians = std::max(path.cone.spread_radians, lobe_cone_share / std::sqrt(scattered.pdf));
+        }
         path.bsdf_pdf = scattered.pdf;
         path.from_delta = scattered.is_delta;
         path.eta_scale *= sqr(scattered.eta);

@@ -11,7 +11,7 @@ namespace candela {
 void AssetImages::list(Scene& scene) const {
     for (const ImageLayout& image : layout_.images) {
         const bool is_file = image.uri && !is_data_uri(*image.uri);
-        scene.images.push_back({image.name.empty() && is_file ? *image.uri : image.name, {}, 0});
+        scene.images.emplace_back().name = image.name.empty() && is_file ? *image.uri : image.name;
     }
 }
 

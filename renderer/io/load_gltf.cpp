@@ -21,6 +21,7 @@
 #include "renderer/io/structure.h"
 #include "renderer/io/tinygltf.h"
 #include "renderer/io/variants.h"
+#include "renderer/scene/color_mips.h"
 #include "renderer/scene/pose.h"
 
 namespace candela {
@@ -107,6 +108,7 @@ Scene load(LoadContext& context, std::span<const std::byte> bytes, const std::fi
     if (context.options().decode_images) {
         context.progress(0.4f, "images");
         images.decode(scene);
+        make_color_mips(scene);
         load_image_based_light(context, document, images, scene);
     }
     if (context.options().measure_images) images.measure(scene);

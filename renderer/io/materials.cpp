@@ -16,6 +16,7 @@ class MaterialLoader {
 
   private:
     WrapMode wrap(int mode, size_t sampler, const char* member) const;
+    void read_filters(const tinygltf::Sampler& from, size_t sampler, Texture& out) const;
 
     LoadContext& context_;
     const tinygltf::Model& model_;
@@ -35,6 +36,38 @@ WrapMode MaterialLoader::wrap(int mode, size_t sampler, const char* member) cons
         default:
             context_.warn(pointer_to("/samplers", sampler, member), "is not a wrap mode of glTF; repeat is used");
             return WrapMode::repeat;
+    }
+}
+
+void MaterialLoader::read_filters(const tinygltf::Sampler& from, size_t sampler, Texture& out) const {
+    const auto warn = [&](const char* member) {
+        context_.warn(pointer_to("/samplers", sampler, member), "is not a filter of glTF; linear is used");
+    };
+    if (from.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) {
+        out.mag_filter = TextureFilter::nearest;
+    } else if (from.magFilter != -1 && from.magFilter != TINYGLTF_TEXTURE_FILTER_LINEAR) {
+        warn("magFilter");
+    }
+    const auto minify = [&](TextureFilter filter, MipFilter mip_filter) {
+        out.min_filter = filter;
+        out.mip_filter = mip_filter;
+    };
+    switch (from.minFilter) {
+        case TINYGLTF_TEXTURE_FILTER_NEAREST:
+            return minify(TextureFilter::nearest, MipFilter::none);
+        case TINYGLTF_TEXTURE_FILTER_LINEAR:
+            return minify(TextureFilter::linear, MipFilter::none);
+        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
+            return minify(TextureFilter::nearest, MipFilter::nearest);
+        case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
+            return minify(TextureFilter::linear, MipFilter::nearest);
+        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
+            return minify(TextureFilter::nearest, MipFilter::linear);
+        case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR:
+        case -1:
+            return;
+        default:
+            warn("minFilter");
     }
 }
 
@@ -64,11 +97,7 @@ Texture MaterialLoader::texture(size_t index) const {
         const tinygltf::Sampler& from = model_.samplers[sampler];
         out.wrap_u = wrap(from.wrapS, sampler, "wrapS");
         out.wrap_v = wrap(from.wrapT, sampler, "wrapT");
-        if (from.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) {
-            out.filter = TextureFilter::nearest;
-        } else if (from.magFilter != -1 && from.magFilter != TINYGLTF_TEXTURE_FILTER_LINEAR) {
-            context_.warn(pointer_to("/samplers", sampler, "magFilter"), "is not a filter of glTF; linear is used");
-        }
+        read_filters(from, sampler, out);
     }
     return out;
 }

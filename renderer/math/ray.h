@@ -13,6 +13,16 @@ struct Ray {
     float t_max = infinity;
 };
 
+// How wide the bundle of rays is that a ray stands for: width_m at its origin, growing by spread_radians per metre.
+// Footprints need no more (Akenine-Möller et al. 2021, "Improved Shader and Texture Level of Detail Using Ray Cones");
+// the curvature of mirrors is left out.
+struct RayCone {
+    float width_m = 0;
+    float spread_radians = 0;
+
+    float width_at(float distance_m) const { return width_m + spread_radians * distance_m; }
+};
+
 // Moves a surface point p by at least `distance_m` to the side its geometric unit normal n points to. The distance must
 // bound the errors of p and of the intersector along n; rounding the sum goes away from the surface (Pharr et al. 2023,
 // "Physically Based Rendering", section 6.8.6).

@@ -66,6 +66,15 @@ Ray generate_ray(const Camera& camera, float aspect, const Vec2& film_uv, const 
     return ray;
 }
 
+RayCone pixel_cone(const Camera& camera, uint32_t height, const Ray& ray) noexcept {
+    const float rows = static_cast<float>(height);
+    if (camera.projection == Projection::panorama) return {0.0f, pi / rows};
+    if (camera.projection == Projection::orthographic) return {2.0f * camera.ortho_half_height_m / rows, 0.0f};
+    // Away from the axis pixels are seen from further off, and along the radius at a slant.
+    const float cosine = std::clamp(glm::dot(ray.direction, camera.forward()), 0.0f, 1.0f);
+    return {0.0f, 2.0f * std::tan(0.5f * camera.yfov_radians) / rows * cosine * std::sqrt(cosine)};
+}
+
 Vec3 project(const Camera& camera, float aspect, const Vec3& world_point) noexcept {
     const Vec3 p = glm::transpose(Mat3(camera.world_from_camera)) * (world_point - camera.position());
     if (camera.projection == Projection::panorama) {

@@ -39,6 +39,10 @@ inline const char* name_of(Projection projection) {
 // vertical angle stays. A panorama has no lens. The direction is a unit vector.
 Ray generate_ray(const Camera& camera, float aspect, const Vec2& film_uv, const Vec2& lens_uv) noexcept;
 
+// The cone around a ray of the camera that is as wide as a pixel of a picture `height` pixels high, in the geometric
+// mean over directions. A lens does not widen it.
+RayCone pixel_cone(const Camera& camera, uint32_t height, const Ray& ray) noexcept;
+
 // Where a world point appears: film_uv in xy, distance along the view axis in z (negative behind a perspective camera;
 // from the eye for a panorama).
 Vec3 project(const Camera& camera, float aspect, const Vec3& world_point) noexcept;

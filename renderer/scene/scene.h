@@ -78,13 +78,17 @@ struct Instance {
 
 enum class WrapMode : uint8_t { repeat, clamp_to_edge, mirrored_repeat };
 enum class TextureFilter : uint8_t { linear, nearest };
+// Between the levels of a mip chain; none: only the image itself is read.
+enum class MipFilter : uint8_t { linear, nearest, none };
 
 struct Texture {
     ImageId image;
     ImageId fallback;  // shown where image cannot be decoded; invalid: none
     WrapMode wrap_u = WrapMode::repeat;
     WrapMode wrap_v = WrapMode::repeat;
-    TextureFilter filter = TextureFilter::linear;
+    TextureFilter mag_filter = TextureFilter::linear;  // where a texel is larger than a pixel
+    TextureFilter min_filter = TextureFilter::linear;  // where it is smaller
+    MipFilter mip_filter = MipFilter::linear;
 };
 
 // A use of a texture: which uv set, and KHR_texture_transform as a 2×3 matrix applied to (u, v, 1).
@@ -197,6 +201,8 @@ struct SceneImage {
     std::string name;
     std::shared_ptr<const ImageRgba8> pixels;  // null: not decoded
     uint64_t pixel_count = 0;                  // as the head of the picture says; 0: unknown, or decoded
+    // Levels 1, 2, … (mip_chain.h) of an image whose texels are colours; null: none.
+    std::shared_ptr<const std::vector<ImageRgba8>> smaller;
 };
 
 enum class LightKind : uint8_t { point, spot, directional };

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "renderer/scene/color_mips.h"
 #include "renderer/world/emissive.h"
 #include "renderer/world/media.h"
 #include "renderer/world/shaded_material.h"
@@ -32,6 +33,13 @@ PlacedLight place_light(const PunctualLight& light, const Mat4& world_from_light
 std::string instance_name(const Scene& scene, const Instance& instance) {
     const std::string& node = instance.node.valid() ? scene.nodes[instance.node.value].name : std::string();
     return node.empty() ? "/nodes/" + std::to_string(instance.node.value) : "node \"" + node + "\"";
+}
+
+bool filters_textures(const World& world, const Material& material) {
+    const auto refs = color_textures(material);
+    return std::any_of(refs.begin(), refs.end(), [&](const TextureRef* ref) {
+        return ref->valid() && !world.textures[ref->texture.value].smaller.empty();
+    });
 }
 
 void gather_lights(World& world, const World* before) {
@@ -93,6 +101,7 @@ std::shared_ptr<World> compile(std::shared_ptr<const Scene> scene_pointer, const
             surface.transform = transform;
             surface.instance = i;
             surface.positions_in_world = in_world;
+            surface.filters_textures = filters_textures(*world, world->materials[surface.material]);
             if (place.shape == invalid_index) input.fixed_surfaces.push_back(first_surface + k);
             world->surfaces.push_back(surface);
             world->triangle_count += primitive.triangles.size();

@@ -18,6 +18,14 @@ class Texels {
     Vec4 srgb(const TextureRef& ref) const {
         return ref.valid() ? lookup_srgb(world_.textures[ref.texture.value], texture_uv(ref, point_.uv)) : Vec4(1);
     }
+    // Colours, over the point's footprint.
+    Vec4 color(const TextureRef& ref) const {
+        if (!ref.valid()) return Vec4(1);
+        TextureFootprint footprint = point_.footprint[ref.uv_set & 1u];
+        const glm::mat3x2& m = ref.uv_transform;
+        footprint.uv_area *= std::abs(m[0].x * m[1].y - m[0].y * m[1].x);
+        return lookup_srgb(world_.textures[ref.texture.value], texture_uv(ref, point_.uv), footprint);
+    }
 
   private:
     const World& world_;
@@ -45,7 +53,7 @@ void add_coat(const ClearcoatLayer& coat, const Texels& texels, const SurfacePoi
 
 Vec3 emission_of(const Material& material, const Texels& texels) {
     Vec3 emission = material.emissive_factor * material.emissive_strength;
-    if (material.emissive.valid()) emission *= Vec3(texels.srgb(material.emissive));
+    if (material.emissive.valid()) emission *= Vec3(texels.color(material.emissive));
     return emission;
 }
 
@@ -58,7 +66,7 @@ ShadedMaterial shade_material(const World& world, const SurfacePoint& point, con
 
     // Base colour: factor, texture and vertex colour multiply.
     Vec3 base_color = Vec3(material.base_color_factor) * Vec3(point.color);
-    if (material.base_color.valid()) base_color *= Vec3(texels.srgb(material.base_color));
+    if (material.base_color.valid()) base_color *= Vec3(texels.color(material.base_color));
     ShadedMaterial shaded;
     if (material.unlit) {
         shaded.unlit = true;
@@ -79,7 +87,7 @@ ShadedMaterial shade_material(const World& world, const SurfacePoint& point, con
     float specular_factor = specular.factor;
     if (specular.texture.valid()) specular_factor *= texels.linear(specular.texture).a;
     Vec3 specular_color = specular.color_factor;
-    if (specular.color.valid()) specular_color *= Vec3(texels.srgb(specular.color));
+    if (specular.color.valid()) specular_color *= Vec3(texels.color(specular.color));
     if (material.specular_glossiness) {
         const Vec4 texel = texels.srgb(material.specular_glossiness_texture);
         roughness = 1.0f - (1.0f - roughness) * texel.a;
@@ -111,13 +119,13 @@ ShadedMaterial shade_material(const World& world, const SurfacePoint& point, con
     }
     if (const DiffuseTransmission& diffuse = material.diffuse_transmission; diffuse.factor > 0.0f) {
         bsdf.diffuse_transmission = diffuse.factor * texels.linear(diffuse.texture).a;
-        bsdf.diffuse_transmission_color = diffuse.color_factor * Vec3(texels.srgb(diffuse.color));
+        bsdf.diffuse_transmission_color = diffuse.color_factor * Vec3(texels.color(diffuse.color));
     }
     // From inside a body neither coat nor sheen is on this side.
     if (!inside) {
         if (material.clearcoat.factor > 0.0f) add_coat(material.clearcoat, texels, point, wo, bsdf);
         if (max_component(material.sheen.color_factor) > 0.0f) {
-            bsdf.sheen_color = material.sheen.color_factor * Vec3(texels.srgb(material.sheen.color));
+            bsdf.sheen_color = material.sheen.color_factor * Vec3(texels.color(material.sheen.color));
             bsdf.sheen_alpha = sqr(material.sheen.roughness_factor * texels.linear(material.sheen.roughness).a);
         }
     }

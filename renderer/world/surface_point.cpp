@@ -10,11 +10,14 @@ T interpolate(const std::vector<T>& values, const Vec3u& index, const Vec3& weig
     return weight.x * values[index.x] + weight.y * values[index.y] + weight.z * values[index.z];
 }
 
+float determinant(const Vec2& a, const Vec2& b) {
+    return a.x * b.y - a.y * b.x;
+}
+
 // The tangent along +u of a triangle without stored tangents, from its edges in space and in uv.
 Vec4 triangle_tangent(const Vec3& edge1, const Vec3& edge2, const Vec2& uv1, const Vec2& uv2) {
-    const float determinant = uv1.x * uv2.y - uv1.y * uv2.x;
-    return Vec4((edge1 * uv2.y - edge2 * uv1.y) * (determinant < 0.0f ? -1.0f : 1.0f),
-                determinant < 0.0f ? 1.0f : -1.0f);
+    const bool mirrored = determinant(uv1, uv2) < 0.0f;
+    return Vec4((edge1 * uv2.y - edge2 * uv1.y) * (mirrored ? -1.0f : 1.0f), mirrored ? 1.0f : -1.0f);
 }
 
 // Bends n until it mirrors wo to the surface's own side. Both normals are unit vectors; wo is on the side of ng.
@@ -40,7 +43,8 @@ OrthonormalFrame frame_with_tangent(const Vec3& normal, const Vec3& tangent, flo
 
 }  // namespace
 
-SurfacePoint make_surface_point(const World& world, const Hit& hit, const Vec3& wo) noexcept {
+SurfacePoint make_surface_point(const World& world, const Hit& hit, const Vec3& wo,
+                                const RayFootprint& footprint) noexcept {
     const Surface& surface = world.surfaces[hit.surface];
     const Primitive& primitive = *surface.primitive;
     const Material& material = world.materials[surface.material];
@@ -81,6 +85,18 @@ SurfacePoint make_surface_point(const World& world, const Hit& hit, const Vec3& 
     // Interpolate what the vertices carry.
     for (int set = 0; set < 2; ++set) {
         if (!primitive.uv[set].empty()) point.uv[set] = interpolate(primitive.uv[set], index, weight);
+    }
+    if (footprint.width_m > 0.0f && surface.filters_textures && doubled_area > 0.0f) {
+        // A cone of width w covers w²/cos θ of the surface; the triangle tells how much uv that is.
+        const float cosine = std::max(std::abs(glm::dot(normal, wo)), 1e-3f);
+        const float uv_per_area = sqr(footprint.width_m) / (cosine * doubled_area);
+        for (int set = 0; set < 2; ++set) {
+            const std::vector<Vec2>& uv = primitive.uv[set];
+            if (uv.empty()) continue;
+            point.footprint[set] = {
+                uv_per_area * std::abs(determinant(uv[index.y] - uv[index.x], uv[index.z] - uv[index.x])),
+                footprint.share, footprint.u_level};
+        }
     }
     if (!primitive.colors.empty()) point.color = interpolate(primitive.colors, index, weight);
     Vec3 shading_normal = normal;

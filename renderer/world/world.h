@@ -26,6 +26,7 @@ struct Surface {
     uint32_t instance = 0;                    // Scene::instances index
     uint32_t medium = invalid_index;          // World::media index of what the surface encloses; invalid: nothing
     bool positions_in_world = false;
+    bool filters_textures = false;  // its material reads colours from textures with smaller levels
 };
 
 // What fills a body: a placed material with KHR_materials_volume.

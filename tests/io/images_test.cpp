@@ -151,7 +151,8 @@ TEST_F(Images, SourcesOfTheExtensionAreChecked) {
               std::string::npos);
 }
 
-// All wrap modes on both axes, both magnification filters; whatever is not glTF's is said and replaced.
+// All wrap modes on both axes, both magnification and all six minification filters; whatever is not glTF's is said and
+// replaced.
 TEST_F(Images, SamplerModes) {
     const std::pair<int, WrapMode> wraps[] = {
         {10497, WrapMode::repeat}, {33071, WrapMode::clamp_to_edge}, {33648, WrapMode::mirrored_repeat}};
@@ -166,15 +167,22 @@ TEST_F(Images, SamplerModes) {
     }
     document.json["samplers"] = {Json::object()};
     EXPECT_EQ(load(document).textures.at(0).wrap_u, WrapMode::repeat);
-    EXPECT_EQ(load(document).textures.at(0).filter, TextureFilter::linear);
+    EXPECT_EQ(load(document).textures.at(0).mag_filter, TextureFilter::linear);
     document.json["samplers"] = {{{"magFilter", 9728}}};
-    EXPECT_EQ(load(document).textures.at(0).filter, TextureFilter::nearest);
-    for (const int minification : {9728, 9729, 9984, 9985, 9986, 9987}) {
-        document.json["samplers"] = {{{"magFilter", 9729}, {"minFilter", minification}}};
-        EXPECT_EQ(load(document).textures.at(0).filter, TextureFilter::linear);
+    EXPECT_EQ(load(document).textures.at(0).mag_filter, TextureFilter::nearest);
+    const std::tuple<int, TextureFilter, MipFilter> minifications[] = {
+        {9728, TextureFilter::nearest, MipFilter::none},    {9729, TextureFilter::linear, MipFilter::none},
+        {9984, TextureFilter::nearest, MipFilter::nearest}, {9985, TextureFilter::linear, MipFilter::nearest},
+        {9986, TextureFilter::nearest, MipFilter::linear},  {9987, TextureFilter::linear, MipFilter::linear}};
+    for (const auto& [number, filter, mip_filter] : minifications) {
+        document.json["samplers"] = {{{"magFilter", 9729}, {"minFilter", number}}};
+        const Texture texture = load(document).textures.at(0);
+        EXPECT_EQ(texture.mag_filter, TextureFilter::linear);
+        EXPECT_EQ(texture.min_filter, filter) << number;
+        EXPECT_EQ(texture.mip_filter, mip_filter) << number;
         EXPECT_TRUE(diagnostics_.warnings().empty()) << all_warnings();
     }
-    for (const char* member : {"wrapS", "wrapT", "magFilter"}) {
+    for (const char* member : {"wrapS", "wrapT", "magFilter", "minFilter"}) {
         document.json["samplers"] = {{{member, 1234}}};
         load(document);
         EXPECT_TRUE(warned(std::string("/samplers/0/") + member, "of glTF")) << all_warnings();

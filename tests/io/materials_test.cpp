@@ -83,9 +83,9 @@ TEST_F(Materials, SamplersAndWebp) {
     const Scene scene = load(with_material(Json::object()));
     EXPECT_EQ(scene.textures.at(0).wrap_u, WrapMode::clamp_to_edge);
     EXPECT_EQ(scene.textures[0].wrap_v, WrapMode::mirrored_repeat);
-    EXPECT_EQ(scene.textures[0].filter, TextureFilter::nearest);
+    EXPECT_EQ(scene.textures[0].mag_filter, TextureFilter::nearest);
     EXPECT_EQ(scene.textures.at(1).wrap_u, WrapMode::repeat);
-    EXPECT_EQ(scene.textures[1].filter, TextureFilter::linear);
+    EXPECT_EQ(scene.textures[1].mag_filter, TextureFilter::linear);
     EXPECT_EQ(scene.textures[1].image.value, 1u) << "EXT_texture_webp replaces the source";
     EXPECT_FALSE(scene.textures.at(2).image.valid());
     EXPECT_TRUE(warned("/textures/2", "no image"));

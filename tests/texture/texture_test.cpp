@@ -19,7 +19,7 @@ std::vector<Rgba8> make_pixels() {
 class TextureTest : public testing::Test {
   protected:
     TextureView view(WrapMode wrap, TextureFilter filter = TextureFilter::linear) const {
-        return {pixels_.data(), 4, 2, wrap, wrap, filter};
+        return {pixels_.data(), 4, 2, wrap, wrap, filter, filter, MipFilter::linear, {}};
     }
     // Red, in steps of 51, at a column of pixel centres.
     static float red(const TextureView& texture, float column) {
@@ -83,6 +83,59 @@ TEST(Texture, WithoutAnImageItIsWhite) {
     EXPECT_EQ(lookup_linear({}, {0.3f, 0.3f}), Vec4(1));
     EXPECT_EQ(lookup_srgb({}, {0.3f, 0.3f}), Vec4(1));
     EXPECT_EQ(lookup_alpha({}, {0.3f, 0.3f}), 1);
+}
+
+// Level k of a chain for the 4 × 2 image is of one green value: what a lookup reads tells its level.
+class MinificationTest : public TextureTest {
+  protected:
+    TextureView view(TextureFilter mag, TextureFilter min, MipFilter mip) const {
+        TextureView out{pixels_.data(), 4, 2, WrapMode::repeat, WrapMode::repeat, mag, min, mip, {}};
+        if (mip != MipFilter::none) out.smaller = levels_;
+        return out;
+    }
+    static float blue(const TextureView& texture, float texels, float share, float u_level) {
+        return std::round(lookup_srgb(texture, {0.3f, 0.3f}, {texels / 8, share, u_level}).b * 255);
+    }
+    static uint8_t srgb(float linear) { return static_cast<uint8_t>(std::lround(255 * srgb_from_linear(linear))); }
+
+    // Blue is 0 in the image; its linear values here are about 100 and 200 of 255.
+    std::vector<ImageRgba8> levels_{ImageRgba8(2, 1, Rgba8(0, 0, srgb(100 / 255.0f), 255)),
+                                    ImageRgba8(1, 1, Rgba8(0, 0, srgb(200 / 255.0f), 255))};
+};
+
+TEST_F(MinificationTest, TheLevelFollowsTheShareOfTheFootprint) {
+    const TextureView texture = view(TextureFilter::linear, TextureFilter::linear, MipFilter::linear);
+    EXPECT_EQ(blue(texture, 0, 1, 0.9f), 0) << "a point";
+    EXPECT_EQ(blue(texture, 0.5f, 1, 0.9f), 0) << "magnified";
+    EXPECT_NEAR(blue(texture, 4, 1, 0.5f), 100, 1);
+    EXPECT_NEAR(blue(texture, 16, 1, 0.5f), 200, 1);
+    EXPECT_NEAR(blue(texture, 1e9f, 1, 0.5f), 200, 1) << "there is no further level";
+    EXPECT_NEAR(blue(texture, 16, 0.25f, 0.5f), 100, 1) << "the fourth part of sixteen texels";
+    EXPECT_EQ(blue(texture, 16, 1.0f / 64, 0.99f), 0) << "less than a texel is left: the image itself";
+    // Half-way between levels, in octaves, each is read half of the time.
+    EXPECT_EQ(blue(texture, 2, 1, 0.49f), 0);
+    EXPECT_NEAR(blue(texture, 2, 1, 0.51f), 100, 1);
+}
+
+TEST_F(MinificationTest, AllSixFilters) {
+    for (const TextureFilter min : {TextureFilter::nearest, TextureFilter::linear}) {
+        const TextureFilter mag = min == TextureFilter::linear ? TextureFilter::nearest : TextureFilter::linear;
+        const TextureView none = view(mag, min, MipFilter::none);
+        const TextureView nearest = view(mag, min, MipFilter::nearest);
+        const TextureView linear = view(mag, min, MipFilter::linear);
+        EXPECT_EQ(blue(none, 16, 1, 0.5f), 0);
+        EXPECT_EQ(blue(nearest, 1.9f, 1, 0.9f), 0) << "the nearer level, whatever the random number";
+        EXPECT_NEAR(blue(nearest, 2.1f, 1, 0.1f), 100, 1);
+        EXPECT_NEAR(blue(linear, 2.1f, 1, 0.9f), 100, 1);
+        EXPECT_EQ(blue(linear, 2.1f, 1, 0.1f), 0);
+        // Half-way between two texels of red 0 and 51: a mean, or one of them.
+        for (const float texels : {0.5f, 3.0f}) {
+            const TextureFilter filter = texels < 1 ? mag : min;
+            const float red = lookup_srgb(none, {1.01f / 4, 0.25f}, {texels / 8, 1, 0}).r;
+            const float whole = linear_from_srgb(0.2f);
+            EXPECT_NEAR(red / whole, filter == TextureFilter::linear ? 0.51f : 1, 1e-3f) << texels;
+        }
+    }
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 struct MappedQuad {
     explicit MappedQuad(const Rgba8& texel, const Mat4& world_from_object = Mat4(1)) {
         Scene scene;
-        scene.images.push_back({"normal", std::make_shared<const ImageRgba8>(1, 1, texel)});
+        scene.images.emplace_back().pixels = std::make_shared<const ImageRgba8>(1, 1, texel);
         Texture texture;
         texture.image = {0};
         scene.textures.push_back(texture);
