@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One decoder of pictures: CANDELA_DECODER names it.
+#include <type_traits>
+
 #include "renderer/image/codecs.h"
 #include "renderer/image/picture_size.h"
 #include "tests/fuzz/fuzz.h"
@@ -27,7 +29,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     try {
         const auto image = CANDELA_DECODER(fuzz::bytes_of(data, size), limits);
         check(image);
-        if (said) {
+        // The HDR decoder, called by itself, reads what begins like another format.
+        if (said && std::is_same_v<decltype(image), const ImageRgba8>) {
             fuzz::require(said->width == static_cast<uint32_t>(image.width()) &&
                               said->height == static_cast<uint32_t>(image.height()),
                           "a picture is as large as its head says");
