@@ -298,6 +298,23 @@ TEST_F(Animations, DeformationsFollowTheirVertices) {
     }
 }
 
+// The first vertex is dropped: the joints of the others stay theirs.
+TEST_F(Animations, InfluencesFollowTheirVertices) {
+    Document document = skinned();
+    const int positions = document.add_accessor<float>({9, 9, 9, 0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", f32);
+    const int indices = document.add_accessor<uint16_t>({1, 2, 3}, "SCALAR", u16);
+    const int joints = document.add_accessor<uint8_t>({0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0}, "VEC4", u8);
+    const int weights =
+        document.add_accessor<float>({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0.5f, 0.5f, 0, 0}, "VEC4", f32);
+    document.json["meshes"][0]["primitives"][0] = {
+        {"attributes", {{"POSITION", positions}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}}}, {"indices", indices}};
+    const Primitive shape = shown(document);
+    ASSERT_EQ(shape.positions.size(), 3u);
+    EXPECT_EQ(shape.positions[0], Vec3(0, 0, 3));
+    EXPECT_EQ(shape.positions[1], Vec3(1, 0, 1));
+    EXPECT_EQ(shape.positions[2], Vec3(0, 1, 2));
+}
+
 TEST_F(Animations, PosedCopiesAreBooked) {
     Document document = skinned();
     Json nodes = document.json["nodes"];

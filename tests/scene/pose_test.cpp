@@ -90,6 +90,12 @@ TEST(Pose, OnlyWhatAnAnimationReachesMoves) {
     EXPECT_FALSE(rest->instances.at(0).moves);
     EXPECT_TRUE(rest->instances.at(1).moves);
     EXPECT_FALSE(rest->instances[1].deforms);
+    // What moves the first moves the second, which hangs from it.
+    Scene both = two_nodes(triangle(), triangle());
+    animate(both, {channel("/nodes/0/rotation", {0}, {0, 0, 0, 1}, 4)});
+    const auto moving = at_rest(std::move(both));
+    EXPECT_TRUE(moving->instances.at(0).moves);
+    EXPECT_TRUE(moving->instances.at(1).moves);
 }
 
 TEST(Pose, HiddenNodesHideWhatHangsFromThem) {
