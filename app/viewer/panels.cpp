@@ -104,7 +104,7 @@ void draw_status_line(const ViewerModel& model) {
 }
 
 void draw_loading_bar(const ViewerModel& model) {
-    place({0.5f, 1.0f}, {0, -3.2f * unit()});
+    place({0.5f, 1.0f}, {0, (timeline_is_shown(model) ? -5.6f : -3.2f) * unit()});
     ImGui::Begin("loading", nullptr, overlay_flags | ImGuiWindowFlags_NoInputs);
     text("opening " + model.loading_name);
     const float width = std::min(20 * unit(), 0.7f * ImGui::GetIO().DisplaySize.x);
@@ -150,7 +150,8 @@ void draw_help() {
                                        {"exposure", "E, Shift+E"},
                                        {"tone curve", "T"},
                                        {"turn, hide environment", "Shift+right drag, J"},
-                                       {"pause", "P"},
+                                       {"play, one frame back, on", "Space  [  ]"},
+                                       {"pause rendering", "P"},
                                        {"save picture", "Ctrl+S, F12"},
                                        {"reload", "F5"},
                                        {"next, previous file", "right, left arrow"},

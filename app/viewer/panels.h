@@ -14,6 +14,9 @@ void draw_loading_bar(const ViewerModel& model);
 void draw_welcome(const ViewerModel& model);
 // A line of news or of failure; returns true when the person dismissed it.
 bool draw_notice(const ViewerModel& model);
+// Over the status line, for files with animations: while the panels are open or one of them is shown.
+bool timeline_is_shown(const ViewerModel& model);
+void draw_timeline(const ViewerModel& model, PanelEdits& edits);
 void draw_help();
 void draw_statistics(const ViewerModel& model);
 // The exact values of a validation scene, marked in the picture; nothing for other scenes.

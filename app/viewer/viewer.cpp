@@ -83,7 +83,7 @@ void Viewer::open_validation_scene(size_t index) {
 void Viewer::start_load(RenderOptions options, bool keep_view) {
     options.resolution = size_.pixels;
     load_keeps_view_ = keep_view;
-    load_is_environment_ = false;
+    load_is_ = LoadKind::scene;
     environment_dirty_ = false;
     load_error_.clear();
     model_.loading = true;
@@ -104,7 +104,7 @@ void Viewer::start_environment_change() {
         model_.loading_name = file_name(read_from);
     }
     environment_dirty_ = false;
-    load_is_environment_ = true;
+    load_is_ = LoadKind::environment;
     loader_.start([options, job = model_.job, read = !read_from.empty()](const SceneLoader::Progress& progress,
                                                                          const std::atomic<bool>*) {
         LoadedScene out{options, job};
@@ -121,7 +121,7 @@ void Viewer::start_variant_change(std::optional<uint32_t> variant) {
     const Scene& scene = *model_.job.world->scene;
     options.variant = variant ? scene.variant_names[*variant] : std::string();
     load_keeps_view_ = true;
-    load_is_environment_ = false;
+    load_is_ = LoadKind::variant;
     environment_dirty_ = false;
     model_.loading = true;
     model_.loading_name = variant ? options.variant : "the file's own materials";
@@ -135,24 +135,29 @@ void Viewer::start_variant_change(std::optional<uint32_t> variant) {
 }
 
 void Viewer::take_loaded() {
+    // A pose waits until the one before has been seen.
+    if (load_is_ == LoadKind::pose && !pose_was_seen()) return;
     std::optional<SceneLoader::Result> result = loader_.take();
     if (!result) return;
     model_.loading = false;
-    redraws_ = 2;
     if (!result->scene) {
         load_error_ = result->error;
         load_status_ = result->status;
         notify(result->error, true);
+        if (load_is_ == LoadKind::pose) {
+            model_.playback.playing = false;
+            shown_pose_ = making_pose_;
+        }
         return;
     }
-
     RenderJob& job = result->scene->job;
-    if (load_is_environment_) {
-        model_.job.world = job.world;
-        model_.job.environment = job.environment;
-        model_.options.hdri = result->scene->options.hdri;
-        model_.options.sky = result->scene->options.sky;
-        dirty_ = true;
+    if (load_is_ == LoadKind::pose) {
+        take_pose(job);
+        return;
+    }
+    redraws_ = 2;
+    if (load_is_ == LoadKind::environment) {
+        take_environment(*result->scene);
         return;
     }
 
@@ -172,8 +177,21 @@ void Viewer::take_loaded() {
             model_.view.pivot = *middle;
         }
         next_camera_ = world.scene->cameras.empty() ? 0 : 1;
+        followed_camera_.reset();
+        for (uint32_t i = 0; i < world.scene->cameras.size(); ++i) {
+            if (world.scene->cameras[i].camera.world_from_camera == camera.world_from_camera) followed_camera_ = i;
+        }
     }
+    if (load_is_ == LoadKind::scene) start_playback();
     if (model_.notice_is_error) model_.notice.clear();
+    dirty_ = true;
+}
+
+void Viewer::take_environment(const LoadedScene& loaded) {
+    model_.job.world = loaded.job.world;
+    model_.job.environment = loaded.job.environment;
+    model_.options.hdri = loaded.options.hdri;
+    model_.options.sky = loaded.options.sky;
     dirty_ = true;
 }
 
@@ -188,7 +206,8 @@ void Viewer::submit() {
     // A window goes on until the person has seen enough.
     const RenderOptions& options = model_.options;
     if (!options.spp && viewer_options_.interface) request.max_spp = std::numeric_limits<uint32_t>::max();
-    session_->submit(request);
+    const uint64_t epoch = session_->submit(request);
+    if (pose_epoch_ == 0) pose_epoch_ = epoch;
     if (hold_until_s_ < now_s()) hold_until_s_ = now_s() + first_frame_seconds;
 }
 
@@ -209,8 +228,10 @@ void Viewer::take_frame() {
 }
 
 bool Viewer::update() {
+    tick();
     take_loaded();
     if (environment_dirty_ && !loader_.busy() && model_.has_scene()) start_environment_change();
+    if (!loader_.busy() && pose_is_wanted()) start_pose();
     if (dirty_) submit();
     take_frame();
 
@@ -243,6 +264,7 @@ void Viewer::draw() {
             draw_validation(read_validation(model_.job.scene_path, *model_.job.world, model_.job.request.view, frame_));
         }
         if (model_.show_panels) edits = draw_side_panel(model_);
+        if (timeline_is_shown(model_)) draw_timeline(model_, edits);
         if (model_.show_help) draw_help();
         if (!model_.notice.empty() && draw_notice(model_)) {
             model_.notice.clear();
@@ -257,6 +279,13 @@ void Viewer::apply(const PanelEdits& edits) {
     if (edits.view || edits.settings) dirty_ = true;
     if (edits.environment) environment_dirty_ = true;
     if (edits.toggle_pause) toggle_pause();
+    if (edits.toggle_play) toggle_play();
+    if (edits.animation) choose_animation_shown(*edits.animation);
+    if (edits.seek_s) {
+        model_.playback.playing = false;
+        if (!model_.playback.animation) model_.playback.animation = 0;
+        seek(*edits.seek_s);
+    }
     if (edits.frame_all) frame_everything();
     if (edits.camera) show_file_camera(*edits.camera);
     if (edits.scene) {
@@ -271,12 +300,13 @@ void Viewer::apply(const PanelEdits& edits) {
 }
 
 bool Viewer::finished() const {
-    if (loader_.busy() || dirty_ || environment_dirty_) return false;
+    if (loader_.busy() || dirty_ || environment_dirty_ || pose_is_wanted()) return false;
     return !model_.has_scene() || model_.status.done;
 }
 
 double Viewer::seconds_until_update() const {
     if (redraws_ > 0 || dirty_) return now_s() < hold_until_s_ ? 0.001 : 0;
+    if (model_.playback.playing || (loader_.busy() && load_is_ == LoadKind::pose)) return 0.004;
     if (loader_.busy()) return 0.02;
     if (model_.has_scene() && !model_.status.done && !model_.status.paused) return 0.008;
     return 0.25;

@@ -53,6 +53,7 @@ class Viewer {
     ExitStatus load_status() const { return load_status_; }
 
   private:
+    enum class LoadKind : uint8_t { scene, environment, variant, pose };
     enum class DragMode : uint8_t { none, orbit, pan, dolly, environment };
 
     RenderOptions options_for(const std::string& path) const;
@@ -60,6 +61,7 @@ class Viewer {
     void start_environment_change();
     void start_variant_change(std::optional<uint32_t> variant);
     void take_loaded();
+    void take_environment(const LoadedScene& loaded);
     void submit();
     void take_frame();
     void notify(std::string line, bool is_error = false);
@@ -82,6 +84,22 @@ class Viewer {
     void toggle_pause();
     void set_focus_at_cursor();
 
+    // The animation that is shown; null: none is.
+    const Animation* animation() const;
+    bool has_animation();  // says so where there is none
+    double wanted_pose_s() const;
+    bool pose_is_wanted() const;
+    bool pose_was_seen() const;
+    void tick();
+    void start_playback();
+    void start_pose();
+    void take_pose(const RenderJob& posed);
+    void follow_file_camera();
+    void toggle_play();
+    void step_animation(int frames);
+    void choose_animation_shown(uint32_t index);
+    void seek(double time_s);
+
     float aspect() const;
     Vec2 film_uv_of(const Vec2& point) const;
     std::optional<Vec3> pick(const Vec2& film_uv) const;
@@ -94,7 +112,8 @@ class Viewer {
     std::unique_ptr<Ui> ui_;
     std::unique_ptr<RenderSession> session_;
     SceneLoader loader_;
-    bool load_keeps_view_ = false, load_is_environment_ = false, environment_dirty_ = false;
+    LoadKind load_is_ = LoadKind::scene;
+    bool load_keeps_view_ = false, environment_dirty_ = false;
     std::string dropped_environment_;
     std::string load_error_;
     ExitStatus load_status_ = ExitStatus::done;
@@ -107,6 +126,12 @@ class Viewer {
     double last_click_s_ = -1;
     Vec2 last_click_{0};
     uint32_t next_camera_ = 0;
+    std::optional<uint32_t> followed_camera_;  // of the file, until the person moves the view
+
+    // The pose that is shown, and the one that the loader makes.
+    Playback shown_pose_, making_pose_;
+    double last_tick_s_ = 0;
+    uint64_t pose_epoch_ = 0;  // of the first picture of the pose that is shown; 0: not submitted yet
 
     const Frame* frame_ = nullptr;
     bool dirty_ = false;  // the request has to be submitted

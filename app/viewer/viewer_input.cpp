@@ -73,6 +73,7 @@ void Viewer::set_view(const OrbitView& view) {
     }
     if (view == model_.view) return;
     model_.view = view;
+    followed_camera_.reset();
     dirty_ = true;
 }
 
@@ -155,6 +156,7 @@ void Viewer::handle_key(const KeyPressed& event) {
             frame_everything();
             return;
         case Key::f5:
+            if (animation() != nullptr) seek(model_.playback.time_s);
             if (!model_.options.scene.empty()) start_load(model_.options, model_.has_scene());
             return;
         case Key::f12:
@@ -185,6 +187,13 @@ void Viewer::handle_key(const KeyPressed& event) {
         case Key::t:
             model_.display.tone.curve = static_cast<ToneCurve>((static_cast<int>(model_.display.tone.curve) + 1) % 4);
             notify(fmt::format("tone curve {}", name_of(model_.display.tone.curve)));
+            return;
+        case Key::space:
+            toggle_play();
+            return;
+        case Key::left_bracket:
+        case Key::right_bracket:
+            step_animation(event.key == Key::left_bracket ? -1 : 1);
             return;
         case Key::p:
             toggle_pause();
@@ -238,6 +247,7 @@ void Viewer::show_file_camera(uint32_t index) {
         set_view(view);
     }
     next_camera_ = index + 1;
+    followed_camera_ = index;
     notify(instance.name.empty() ? fmt::format("camera {}", index) : "camera " + instance.name);
 }
 

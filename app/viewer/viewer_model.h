@@ -4,6 +4,7 @@
 
 #include "app/gl/display.h"
 #include "app/render_job.h"
+#include "app/viewer/playback.h"
 #include "app/viewer/scene_loader.h"
 #include "app/viewer/view_control.h"
 
@@ -14,6 +15,7 @@ struct ViewerModel {
     RenderJob job;          // its world is null before the first scene
     OrbitView view;
     DisplaySettings display;
+    Playback playback;
 
     bool show_interface = true;  // false: only the picture
     bool show_panels = false;
@@ -46,6 +48,9 @@ struct PanelEdits {
     bool tone = false;         // only drawn anew
     bool toggle_pause = false;
     bool frame_all = false;
+    bool toggle_play = false;
+    std::optional<double> seek_s;                    // on the timeline
+    std::optional<uint32_t> animation;               // of the file
     std::optional<uint32_t> camera;                  // of the file
     std::optional<uint32_t> scene;                   // of the file
     std::optional<std::optional<uint32_t>> variant;  // of the file; none inside: each primitive's own material

@@ -215,15 +215,26 @@ TEST(AccelTrees, AHundredPosesNeedNoMoreMemoryThanAFew) {
     for (int i = 0; i < 5; ++i)
         accel = scene.build(scene.at(0.01f * static_cast<float>(i)), accel.get());
     const uint64_t few = accel->memory_bytes();
-    std::weak_ptr<const Soup> first_pose;
     for (int i = 0; i < 100; ++i) {
-        const MovingScene::Pose pose = scene.at(0.01f * static_cast<float>(i));
-        if (i == 0) first_pose = pose.body;
-        accel = scene.build(pose, accel.get());
+        accel = scene.build(scene.at(0.01f * static_cast<float>(i)), accel.get());
         ASSERT_EQ(accel->work().trees_built, 0u);
     }
     EXPECT_LE(accel->memory_bytes(), few + few / 20);
-    EXPECT_TRUE(first_pose.expired()) << "a tree that waits keeps its old vertices";
+}
+
+TEST(AccelTrees, TheVerticesOfAPoseLiveAsLongAsItsAccel) {
+    const MovingScene scene;
+    const auto first = scene.build(scene.at(0), nullptr);
+    std::unique_ptr<Accel> second = scene.build(scene.at(1), first.get());
+    for (int i = 0; i < 2; ++i) {
+        MovingScene::Pose pose = scene.at(0.5f);
+        const std::weak_ptr<const Soup> vertices = pose.body;
+        second = scene.build(pose, first.get());
+        pose.body.reset();
+        EXPECT_FALSE(vertices.expired());
+        second.reset();
+        EXPECT_TRUE(vertices.expired()) << "a tree that waits keeps its old vertices";
+    }
 }
 
 TEST(AccelTrees, TheSameTreesAskEachAccelsOwnUser) {

@@ -176,6 +176,42 @@ TEST(Pose, HiddenThingsComeBackWithTheirTrees) {
     EXPECT_EQ(picture(*back), picture(*world));
 }
 
+// A mesh that one node shows for good and another now and then does not change its place with it.
+TEST(Pose, ScenerySharedWithHiddenThingsStaysWhereItIs) {
+    Scene rest = moving_scene();
+    rest.instances[twin].moves = false;
+    rest.instances[twin].world_from_object = glm::translate(Mat4(1), Vec3(1.2f, 0.6f, -0.5f));
+    rest.nodes[rest.instances[ball].node.value].moves = true;
+    const auto shown = std::make_shared<const Scene>(rest);
+    auto hidden = std::make_shared<Scene>(rest);
+    hidden->instances.erase(hidden->instances.begin() + ball, hidden->instances.begin() + ball + 1);
+    const auto world = build_world(shown);
+    const auto without = with_pose(world, hidden);
+    EXPECT_EQ(without->accel->work().trees_built, 0u);
+    EXPECT_EQ(without->fixed.parts.size(), world->fixed.parts.size());
+    EXPECT_EQ(picture(*without), picture(*build_world(hidden)));
+}
+
+TEST(Pose, WhatMovesWithoutBeingMarkedIsSeenToo) {
+    const Scene rest = moving_scene();
+    const auto world = build_world(at(rest, 1));
+    auto changed = std::make_shared<Scene>(*world->scene);
+    changed->instances[0].world_from_object[3].y = 0.3f;
+    const auto other = with_pose(world, changed);
+    EXPECT_EQ(other->accel->work().trees_built, 1u);
+    EXPECT_EQ(picture(*other), picture(*build_world(changed)));
+    EXPECT_NE(picture(*other), picture(*world));
+}
+
+TEST(Pose, LampsThatChangeAreChosenByWhatTheyShineNow) {
+    const Scene rest = moving_scene();
+    const auto world = build_world(at(rest, 1));
+    auto changed = std::make_shared<Scene>(*world->scene);
+    changed->materials[changed->mesh(changed->instances[lamp].mesh).primitives[0].material.value].emissive_factor =
+        Vec3(0.1f, 0, 0.2f);
+    EXPECT_EQ(picture(*with_pose(world, changed)), picture(*build_world(changed)));
+}
+
 TEST(Pose, SceneryIsInOnePieceThatIsNotMoved) {
     const Scene rest = moving_scene();
     const auto world = build_world(at(rest, 1));
