@@ -202,7 +202,7 @@ struct SceneImage {
     std::shared_ptr<const ImageRgba8> pixels;  // null: not decoded
     uint64_t pixel_count = 0;                  // as the head of the picture says; 0: unknown, or decoded
     // Levels 1, 2, … (mip_chain.h) of an image whose texels are colours; null: none.
-    std::shared_ptr<const std::vector<ImageRgba8>> smaller;
+    std::shared_ptr<const std::vector<ImageRgba8>> smaller = nullptr;
 };
 
 enum class LightKind : uint8_t { point, spot, directional };
