@@ -64,7 +64,7 @@ std::shared_ptr<const Scene> at_rest(Scene scene) {
 
 TEST(Pose, NodesMoveWithTheirChildrenAndMeshesStayShared) {
     Scene scene = two_nodes(triangle(), triangle());
-    scene.images.push_back({"i", std::make_shared<const ImageRgba8>(1, 1), nullptr});
+    scene.images.push_back({"i", std::make_shared<const ImageRgba8>(1, 1)});
     scene.nodes[1].translation = Vec3(0, 2, 0);
     scene.nodes[1].parent_from_node = glm::translate(Mat4(1), Vec3(0, 2, 0));
     animate(scene, {channel("/nodes/0/translation", {0, 2}, {0, 0, 0, 10, 0, 0}, 3)});
