@@ -11,8 +11,8 @@ class Model;
 namespace candela {
 
 // The file's meshes, as many as it has; what cannot be shown (primitives without positions) is left out with a warning.
-// Points and lines need give_strokes_bodies afterwards. Needs scene.materials and nodes. Throws LoadError for indices out of
-// range, attributes of the wrong type or length.
+// Points and lines need give_strokes_bodies afterwards. Needs scene.materials and nodes. Throws LoadError for indices
+// out of range, attributes of the wrong type or length.
 std::vector<Mesh> load_meshes(LoadContext& context, const tinygltf::Model& model, AccessorReader& accessors,
                               const Scene& scene);
 

@@ -47,11 +47,11 @@ struct Detail {
     uint32_t sides;  // of a tube
 };
 
-// Triangles are shared out: 128 to a sphere while there are few, 4 where there are millions.
+// Triangles are shared out: 128 to a sphere while there are few, 4 where there are tens of thousands.
 Detail choose_detail(uint64_t count) {
-    if (count <= 20'000) return {subdivided(subdivided(octahedron())), 12};
-    if (count <= 100'000) return {subdivided(octahedron()), 8};
-    if (count <= 500'000) return {octahedron(), 4};
+    if (count <= 4'000) return {subdivided(subdivided(octahedron())), 12};
+    if (count <= 10'000) return {subdivided(octahedron()), 8};
+    if (count <= 40'000) return {octahedron(), 4};
     return {tetrahedron(), 3};
 }
 
@@ -216,7 +216,7 @@ class BodyMaker {
 
 float stroke_width(float scene_diagonal, uint64_t count) {
     const float diagonal = scene_diagonal > 0.0f && std::isfinite(scene_diagonal) ? scene_diagonal : 1.0f;
-    return diagonal / std::max(1.0f / stroke_width_per_diagonal, std::sqrt(static_cast<float>(count)));
+    return diagonal / std::max(1.0f / stroke_width_per_diagonal, 4.0f * std::sqrt(static_cast<float>(count)));
 }
 
 void give_strokes_bodies(LoadContext& context, Scene& scene, std::vector<Mesh>& meshes) {

@@ -8,9 +8,9 @@ namespace candela {
 
 // How thick points and lines are: this fraction of the diagonal of the box around all that the active scene places,
 // less where there are so many that they would hide each other (see stroke_width).
-inline constexpr float stroke_width_per_diagonal = 1.0f / 200.0f;
+inline constexpr float stroke_width_per_diagonal = 1.0f / 500.0f;
 
-// count: points, ends and segments together. Above 40 000 the width falls with the square root of the count.
+// count: points, ends and segments together. Above 15 625 the width falls with the square root of the count.
 float stroke_width(float scene_diagonal, uint64_t count);
 
 // Replaces the degenerate triangles by which assemble_triangles names points and segments with bodies made of

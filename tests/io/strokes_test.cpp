@@ -55,7 +55,7 @@ TEST_F(Strokes, CountsOfEveryMode) {
 TEST_F(Strokes, SpheresAreRoundWatertightAndOfTheStatedWidth) {
     const Scene scene = load(row(5, 0));
     const Primitive& p = first(scene);
-    const float radius = 0.5f * 4.0f / 200.0f;
+    const float radius = 0.5f * 4.0f / 500.0f;
     EXPECT_NEAR(scene.strokes.width_m, 2 * radius, 1e-6f);
     std::map<std::pair<uint32_t, uint32_t>, int> edges;
     for (const Vec3u& t : p.triangles) {
@@ -109,7 +109,7 @@ TEST_F(Strokes, NodesThatStretchOrMirrorDoNotStretchTheWidth) {
     const Primitive& p = first(scene);
     const Mat4& world_from_object = scene.instances.at(0).world_from_object;
     const float radius = 0.5f * scene.strokes.width_m;
-    EXPECT_NEAR(scene.strokes.width_m, 2.0f / 200.0f, 1e-6f);
+    EXPECT_NEAR(scene.strokes.width_m, 2.0f / 500.0f, 1e-6f);
     const Mat3 normal_matrix = glm::transpose(glm::inverse(Mat3(world_from_object)));
     for (size_t v = 0; v < p.positions.size(); ++v) {
         const Vec3 world(world_from_object * Vec4(p.positions[v], 1.0f));
@@ -122,8 +122,8 @@ TEST_F(Strokes, NodesThatStretchOrMirrorDoNotStretchTheWidth) {
 }
 
 TEST_F(Strokes, ManyAreThinnerAndCoarser) {
-    EXPECT_FLOAT_EQ(stroke_width(10.0f, 100), 0.05f);
-    EXPECT_FLOAT_EQ(stroke_width(10.0f, 1'000'000), 0.01f);
+    EXPECT_FLOAT_EQ(stroke_width(10.0f, 100), 0.02f);
+    EXPECT_FLOAT_EQ(stroke_width(10.0f, 1'000'000), 0.0025f);
     EXPECT_GT(stroke_width(0.0f, 1), 0.0f) << "a single point has no diagonal";
     const Scene scene = load(row(600'000, 0));
     EXPECT_EQ(unique_triangle_count(scene), 4u * 600'000u);
