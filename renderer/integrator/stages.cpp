@@ -198,7 +198,8 @@ PathState begin_path(const View& view, const IntegratorSettings& settings, Pixel
     path.ray = generate_ray(view.camera, extent.x / extent.y, film_uv, path.sampler.next_2d());
     if (settings.filter_textures) {
         path.cone = pixel_cone(view.camera, view.extent.y, path.ray);
-        path.texture_share = 1.0f / static_cast<float>(sample.index + 1);
+        const auto n = static_cast<float>(sample.index + 1);
+        path.texture_share = 1.0f / (n * std::sqrt(n));
     }
     return path;
 }

@@ -4,8 +4,8 @@
 // Colours under a footprint. A picture of few samples should not depend on which texel each of them happens to meet,
 // and a picture of many must show the texture as it is, not a blurred copy. So every sample looks at the mean of the
 // texels that it stands for (a level of the mip chain), and what it stands for shrinks: of n samples each stands for
-// 1/n of the pixel, and since sample i does not know n, it takes 1/(i+1) of the pixel's area. The blur of a sample is
-// of second order in its width, so the mean of n samples is off by O(log n / n), while their noise falls no faster than
+// 1/n of the pixel, and since sample i does not know n, it takes (i+1)^(-3/2) of the pixel's area. The blur of a sample
+// is of second order in its width, so the mean of n samples is off by O(1/n), while their noise falls no faster than
 // about n^(-3/4) at texel edges: the error's share of blur vanishes in the limit, and once a sample stands for less
 // than a texel it reads level 0 itself. Between two levels one is chosen at random with the weights of trilinear
 // filtering. What enters the light transport other than as a factor (normals, roughness, opacity and the like) is not
