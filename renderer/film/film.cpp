@@ -16,17 +16,17 @@ void Film::clear_rows(uint32_t row_begin, uint32_t row_end) noexcept {
                 size_t{row_end - row_begin} * extent_.x, FilmPixel{});
 }
 
-void Film::add(Vec2u pixel, uint32_t sample_index, const Vec3& radiance, float alpha) noexcept {
+void Film::add(Vec2u pixel, uint32_t sample_index, const Vec3& radiance, float alpha, PathCost cost) noexcept {
     FilmPixel& p = pixels_[size_t{pixel.y} * extent_.x + pixel.x];
+    p.segments += cost.segments;
+    p.shadow_rays += cost.shadow_rays;
     if (!is_finite(radiance) || !std::isfinite(alpha)) {
         ++p.non_finite;
         return;
     }
-    const float value = luminance(radiance);
     p.radiance_sum += radiance;
     p.alpha_sum += alpha;
-    p.luminance_sq_sum += value * value;
-    if (sample_index % replicate_count == 0) p.even_luminance_sum += value;
+    if (sample_index % replicate_count == 0) p.even_luminance_sum += luminance(radiance);
     ++p.count;
 }
 

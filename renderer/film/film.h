@@ -2,6 +2,7 @@
 // Per-pixel accumulation of radiance samples. A pixel is written by one worker at a time; the caller sees to that.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -10,16 +11,23 @@
 
 namespace candela {
 
-// 32 bytes. Sums are of finite samples; others only count in non_finite.
+// What a sample cost.
+struct PathCost {
+    uint32_t segments = 0;     // camera and bounce rays
+    uint32_t shadow_rays = 0;  // connections to lights
+};
+
+// 36 bytes. Sums are of finite samples; others only count in non_finite and in the cost.
 struct FilmPixel {
     Vec3 radiance_sum{0};
     float alpha_sum = 0;
     float even_luminance_sum = 0;  // luminance of the samples of replicate 0, for the error estimate
-    float luminance_sq_sum = 0;    // sum of squared sample luminances
     uint32_t count = 0;
     uint32_t non_finite = 0;
+    uint32_t segments = 0;
+    uint32_t shadow_rays = 0;
 };
-static_assert(sizeof(FilmPixel) == 32);
+static_assert(sizeof(FilmPixel) == 36);
 
 class Film {
   public:
@@ -30,7 +38,7 @@ class Film {
     void clear();
     void clear_rows(uint32_t row_begin, uint32_t row_end) noexcept;
     // Adds one sample; samples of one pixel must come in the order of their index (a float sum depends on it).
-    void add(Vec2u pixel, uint32_t sample_index, const Vec3& radiance, float alpha) noexcept;
+    void add(Vec2u pixel, uint32_t sample_index, const Vec3& radiance, float alpha, PathCost cost = {}) noexcept;
 
     const FilmPixel& at(Vec2u pixel) const noexcept { return pixels_[size_t{pixel.y} * extent_.x + pixel.x]; }
     std::span<const FilmPixel> pixels() const { return pixels_; }
@@ -44,8 +52,18 @@ class Film {
 // coarser lattice point (strides 2, 4, 8, 16) that has one, so that a stride-8 pass fills the whole frame.
 void resolve_rows(const Film& film, uint32_t row_begin, uint32_t row_end, Frame& frame) noexcept;
 
-// What the film says of its own error; one pass over the pixels.
-FilmStatistics measure(const Film& film);
+// Shares the rows [0, height) out by calls of work(begin, end), on any threads, and returns when all are done.
+using RowWork = std::function<void(uint32_t, uint32_t)>;
+using RowRunner = std::function<void(uint32_t height, const RowWork& work)>;
+inline void run_in_one_go(uint32_t height, const RowWork& work) {
+    work(0, height);
+}
+
+// What the film says of its own error; two passes over the pixels. The same to the bit for any runner.
+FilmStatistics measure(const Film& film, const RowRunner& run = run_in_one_go);
+
+// Writes rows [row_begin, row_end) of frame.maps, which has the film's extent. mean_luminance: of the picture.
+void map_rows(const Film& film, double mean_luminance, uint32_t row_begin, uint32_t row_end, Frame& frame);
 
 // The per-pixel estimate of the standard error of the luminance (from replicate differences, pooled over a small
 // neighbourhood).

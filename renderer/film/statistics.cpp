@@ -1,83 +1,115 @@
 // SPDX-License-Identifier: MIT
 // What a film says of its own error. The samples of a pixel belong to two independent replicates with n0 and n1 samples
-// and means A and B. The pixel's value is m = (n0·A + n1·B)/n, and with n0 ≈ n1 the difference of the replicates has
-// Var(A − B) = Var A + Var B ≈ 4 Var m, whatever correlation there is inside a replicate. For a nearly normal A − B,
-// E|A − B| = sqrt(2/π)·2·SE(m): so sqrt(π/2)·|A − B|/2 estimates the standard error without bias.
-#include "renderer/film/film.h"
+// and means A and B. The pixel's value is m = (n0·A + n1·B)/n, and with n0 ≈ n1 its error m − μ = ((A − μ) + (B − μ))/2
+// and the half difference (A − B)/2 = ((A − μ) − (B − μ))/2 have the same variance, whatever correlation there is
+// inside a replicate; and where A is distributed symmetrically about μ they have the same distribution. So over many
+// pixels, mean and quantiles of |A − B|/2 are those of the error. Nothing is assumed of a single pixel (one difference
+// says next to nothing of it), nor that noise is normal.
+//
+// Where it falls short: for skewed A, E|A − B|/2 ≤ E|m − μ|, at worst by half where almost all light comes by rare
+// bright samples that few pixels have met. And a picture's bias is not seen (textures are filtered less with every
+// sample; texture.h). tests/benchmarks/calibration.cpp measures how far it holds.
+#include <bit>
+#include <mutex>
+
+#include "renderer/film/replicates.h"
 
 namespace candela {
 
 namespace {
 
-constexpr double half_normal = 1.2533141373155003;  // sqrt(π/2)
+// Of numbers from 0 on, with 32 bins for each power of two: the leading bits of the number.
+class Histogram {
+  public:
+    void add(float value) { ++bins_[std::bit_cast<uint32_t>(std::max(value, 0.0f)) >> shift]; }
+    void add(const Histogram& other) {
+        for (size_t i = 0; i < bins_.size(); ++i)
+            bins_[i] += other.bins_[i];
+    }
+    // Interpolated within its bin.
+    double quantile(double share, size_t count) const {
+        double before = 0;
+        const double wanted = share * static_cast<double>(count);
+        for (uint32_t i = 0; i < bins_.size(); ++i) {
+            const double in_bin = bins_[i];
+            if (in_bin > 0 && before + in_bin >= wanted) {
+                const auto low = static_cast<double>(std::bit_cast<float>(i << shift));
+                const auto high = static_cast<double>(std::bit_cast<float>((i + 1) << shift));
+                return low + (high - low) * (wanted - before) / in_bin;
+            }
+            before += in_bin;
+        }
+        return 0.0;
+    }
 
-// |A − B|/2, or a negative number while one replicate has no sample.
-double half_difference(const FilmPixel& pixel) {
-    const uint32_t even = (pixel.count + 1) / 2;
-    const uint32_t odd = pixel.count / 2;
-    if (odd == 0) return -1.0;
-    const double a = static_cast<double>(pixel.even_luminance_sum) / even;
-    const double total = static_cast<double>(luminance(pixel.radiance_sum));
-    const double b = (total - static_cast<double>(pixel.even_luminance_sum)) / odd;
-    return 0.5 * std::abs(a - b);
-}
+  private:
+    static constexpr uint32_t shift = 18;  // keeps the exponent and five bits of the mantissa
+    std::vector<uint32_t> bins_ = std::vector<uint32_t>((0x7f800000u >> shift) + 1);
+};
 
-double mean_of(const FilmPixel& pixel) {
-    return pixel.count == 0 ? 0.0 : static_cast<double>(luminance(pixel.radiance_sum)) / pixel.count;
+// Kept row by row and added up in their order, so that the sums do not depend on who works on which rows.
+struct RowSums {
+    double luminance = 0, error = 0;
+    uint64_t samples = 0, non_finite = 0;
+    uint32_t min_samples = 0xffffffffu;
+};
+
+RowSums sum_row(std::span<const FilmPixel> row) noexcept {
+    RowSums out;
+    for (const FilmPixel& pixel : row) {
+        out.luminance += static_cast<double>(mean_of(pixel));
+        out.samples += pixel.count;
+        out.non_finite += pixel.non_finite;
+        out.min_samples = std::min(out.min_samples, pixel.count);
+    }
+    return out;
 }
 
 }  // namespace
 
-FilmStatistics measure(const Film& film) {
+FilmStatistics measure(const Film& film, const RowRunner& run) {
+    const uint32_t width = film.extent().x, height = film.extent().y;
+    std::vector<RowSums> rows(height);
+    run(height, [&](uint32_t begin, uint32_t end) {
+        for (uint32_t y = begin; y < end; ++y)
+            rows[y] = sum_row(film.pixels().subspan(size_t{y} * width, width));
+    });
     FilmStatistics out;
     out.min_samples = film.pixels().empty() ? 0 : 0xffffffffu;
     double luminance_sum = 0;
-    for (const FilmPixel& pixel : film.pixels()) {
-        out.total_samples += pixel.count;
-        out.non_finite += pixel.non_finite;
-        out.min_samples = std::min(out.min_samples, pixel.count);
-        luminance_sum += mean_of(pixel);
+    for (const RowSums& row : rows) {
+        out.total_samples += row.samples;
+        out.non_finite += row.non_finite;
+        out.min_samples = std::min(out.min_samples, row.min_samples);
+        luminance_sum += row.luminance;
     }
     const auto pixels = static_cast<double>(std::max<size_t>(film.pixels().size(), 1));
     out.mean_samples = static_cast<double>(out.total_samples) / pixels;
     out.mean_luminance = luminance_sum / pixels;
-
-    // The mean over pixels of the relative standard error; dark pixels count against a tenth of the picture's mean.
-    out.relative_error = std::numeric_limits<double>::quiet_NaN();
+    out.relative_error = out.relative_error_95 = std::numeric_limits<double>::quiet_NaN();
     if (out.min_samples < 2) return out;
-    double error_sum = 0;
-    for (const FilmPixel& pixel : film.pixels()) {
-        const double scale = mean_of(pixel) + 0.1 * out.mean_luminance;
-        if (scale > 0) error_sum += half_normal * half_difference(pixel) / scale;
-    }
-    out.relative_error = error_sum / pixels;
-    return out;
-}
 
-std::vector<float> standard_error_map(const Film& film) {
-    const auto width = static_cast<int>(film.extent().x);
-    const auto height = static_cast<int>(film.extent().y);
-    constexpr int reach = 2;
-    std::vector<float> out(film.pixels().size(), std::numeric_limits<float>::quiet_NaN());
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            // One difference is a poor estimate; the root mean square over 5 × 5 pixels is a usable one.
-            double squares = 0;
-            int count = 0;
-            for (int v = std::max(y - reach, 0); v <= std::min(y + reach, height - 1); ++v) {
-                for (int u = std::max(x - reach, 0); u <= std::min(x + reach, width - 1); ++u) {
-                    const double d = half_difference(film.at(Vec2u(u, v)));
-                    if (d < 0) continue;
-                    squares += d * d;
-                    ++count;
-                }
-            }
-            if (count > 0) {
-                out[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)] =
-                    static_cast<float>(std::sqrt(squares / count));
+    // The mean and the 95th percentile of the replicates' differences.
+    Histogram errors;
+    std::mutex mutex;
+    run(height, [&](uint32_t begin, uint32_t end) {
+        Histogram here;
+        std::vector<float> error(width);
+        for (uint32_t y = begin; y < end; ++y) {
+            relative_half_differences(film, out.mean_luminance, y, error);
+            for (const float each : error) {
+                rows[y].error += static_cast<double>(each);
+                here.add(each);
             }
         }
-    }
+        const std::lock_guard lock(mutex);
+        errors.add(here);
+    });
+    double error_sum = 0;
+    for (const RowSums& row : rows)
+        error_sum += row.error;
+    out.relative_error = error_sum / pixels;
+    out.relative_error_95 = errors.quantile(0.95, film.pixels().size());
     return out;
 }
 

@@ -39,6 +39,8 @@ struct PixelSample {
 struct RadianceSample {
     Vec3 radiance{0};  // may be non-finite when something went wrong: the film counts it
     float alpha = 1;
+    uint32_t segments = 0;     // camera and bounce rays that it took
+    uint32_t shadow_rays = 0;  // and connections to lights
 };
 
 // The scalar driver: one path from start to end.

@@ -25,7 +25,9 @@ struct PathState {
     float eta_scale = 1;      // product of squared relative indices, taken out of the roulette's decision
     uint32_t depth = 0;       // scattering events so far
     uint32_t segments = 0;    // surfaces met so far, those that were passed straight included
-    bool from_delta = true;   // no light sample could have found ray.direction: camera rays and delta lobes
+    uint32_t traced = 0;      // rays followed so far, and connections to lights
+    uint32_t shadow_rays = 0;
+    bool from_delta = true;  // no light sample could have found ray.direction: camera rays and delta lobes
     bool alive = true;
 };
 

@@ -210,6 +210,7 @@ Hit extend(const World& world, const PathState& path, RayCounts& counts) noexcep
 }
 
 ShadowRequest shade(const World& world, const IntegratorSettings& settings, const Hit& hit, PathState& path) noexcept {
+    ++path.traced;
     if (!hit.valid()) {
         shade_miss(world, settings, path);
         return {};
@@ -315,6 +316,7 @@ ShadowRequest shade(const World& world, const IntegratorSettings& settings, cons
 
 void connect(const World& world, const ShadowRequest& request, PathState& path, RayCounts& counts) noexcept {
     ++counts.shadow;
+    ++path.shadow_rays;
     path.radiance += world.accel->transmittance(request.ray) * request.contribution;
 }
 

@@ -20,7 +20,7 @@ ShadowRequest shade(const World& world, const IntegratorSettings& settings, cons
 void connect(const World& world, const ShadowRequest& request, PathState& path, RayCounts& counts) noexcept;
 
 inline RadianceSample finish(const PathState& path) {
-    return {path.radiance, path.alpha};
+    return {path.radiance, path.alpha, path.traced, path.shadow_rays};
 }
 
 }  // namespace candela

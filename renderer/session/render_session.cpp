@@ -63,9 +63,10 @@ struct RenderSession::Impl {
     void trace_slice();
     bool finished_by_limits();
     void finish_epoch();
+    void measure_film();
     void publish();
     void update_status();
-    void run_rows(const std::function<void(uint32_t, uint32_t)>& rows);
+    void run_rows(const RowWork& rows);
     uint32_t slice_tiles() const;
 
     SessionOptions options;
@@ -78,6 +79,7 @@ struct RenderSession::Impl {
     Clock::time_point submitted_at;
     uint64_t newest_epoch = 0;
     bool paused = false, stop_asked = false, quit = false;
+    bool republish_asked = false;
     uint32_t snapshots_asked = 0, snapshots_made = 0;
     Film snapshot;
     uint32_t max_spp = 0;
@@ -88,6 +90,8 @@ struct RenderSession::Impl {
     std::atomic<uint64_t> work_token{0};
     // Whether a submit may interrupt: not before the epoch's first frame.
     std::atomic<bool> interruptible{true};
+    // Whether frames come with maps.
+    std::atomic<bool> maps_wanted{false};
 
     // Owned by the control thread.
     RenderRequest request;
@@ -95,6 +99,7 @@ struct RenderSession::Impl {
     std::optional<Schedule> schedule;
     Film film;
     FilmStatistics statistics;
+    ErrorHistory history;
     uint32_t measured_at_spp = 0;
     bool active = false;
     double render_seconds = 0;
@@ -113,7 +118,7 @@ struct RenderSession::Impl {
     std::thread control;
 };
 
-void RenderSession::Impl::run_rows(const std::function<void(uint32_t, uint32_t)>& rows) {
+void RenderSession::Impl::run_rows(const RowWork& rows) {
     std::atomic<uint32_t> next{0};
     const uint32_t height = film.extent().y;
     const std::function<void(unsigned)> job = [&](unsigned) {
@@ -132,7 +137,8 @@ void RenderSession::Impl::begin_epoch(RenderRequest next, uint64_t next_epoch, C
     render_seconds = 0;
     rays = {};
     statistics = {};
-    statistics.relative_error = std::numeric_limits<double>::quiet_NaN();
+    statistics.relative_error = statistics.relative_error_95 = std::numeric_limits<double>::quiet_NaN();
+    history.clear();
     measured_at_spp = 0;
     first_frame_out = false;
     error.clear();
@@ -182,7 +188,9 @@ void RenderSession::Impl::trace_slice() {
             }
             for (size_t i = 0; i < tally.samples.size(); ++i) {
                 const PixelSample& sample = tally.samples[i];
-                film.add({sample.x, sample.y}, sample.index, tally.radiance[i].radiance, tally.radiance[i].alpha);
+                const RadianceSample& traced = tally.radiance[i];
+                film.add({sample.x, sample.y}, sample.index, traced.radiance, traced.alpha,
+                         {traced.segments, traced.shadow_rays});
             }
             tally.paths += tally.samples.size();
         }
@@ -215,10 +223,17 @@ void RenderSession::Impl::publish() {
     const auto height = static_cast<int>(film.extent().y);
     if (frame.image.width() != width || frame.image.height() != height) frame.image = ImageRgba32f(width, height);
     run_rows([&](uint32_t begin, uint32_t end) { resolve_rows(film, begin, end, frame); });
+    if (!maps_wanted.load()) {
+        frame.maps = {};
+    } else {
+        if (frame.maps.width() != width || frame.maps.height() != height) frame.maps = ImageRgba32f(width, height);
+        run_rows([&](uint32_t begin, uint32_t end) { map_rows(film, statistics.mean_luminance, begin, end, frame); });
+    }
     frame.epoch = epoch;
     frame.serial = ++frames_published;
     frame.stride = schedule ? schedule->current_stride() : 1;
     frame.statistics = statistics;
+    frame.history = history;
     frame.statistics.min_samples = schedule ? schedule->complete_samples() : 0;
     frame.render_seconds = render_seconds;
     frame.rays = rays.total();
@@ -231,6 +246,12 @@ void RenderSession::Impl::publish() {
     }
 }
 
+void RenderSession::Impl::measure_film() {
+    statistics = measure(film, [this](uint32_t, const RowWork& work) { run_rows(work); });
+    measured_at_spp = schedule->complete_samples();
+    history.add({measured_at_spp, render_seconds, statistics.relative_error, statistics.relative_error_95});
+}
+
 bool RenderSession::Impl::finished_by_limits() {
     uint32_t spp_limit = 0;
     double time_limit = 0;
@@ -241,11 +262,10 @@ bool RenderSession::Impl::finished_by_limits() {
         time_limit = max_seconds;
     }
     const uint32_t spp = schedule->complete_samples();
-    // The error is looked at when it has had time to change: at powers of two and every 16 samples.
-    const bool worth_measuring = spp > measured_at_spp && spp >= 2 && ((spp & (spp - 1)) == 0 || spp % 16 == 0);
+    // The error is looked at when it has had time to change, and both replicates have as many samples.
+    const bool worth_measuring = spp > measured_at_spp && spp % (spp <= 8 ? 2 : spp <= 32 ? 4 : 16) == 0;
     if (worth_measuring && (options.publish_frames || request.until_relative_error > 0)) {
-        statistics = measure(film);
-        measured_at_spp = spp;
+        measure_film();
         if (request.until_relative_error > 0 && statistics.relative_error <= request.until_relative_error) return true;
     }
     return spp >= spp_limit || render_seconds >= time_limit;
@@ -253,7 +273,7 @@ bool RenderSession::Impl::finished_by_limits() {
 
 void RenderSession::Impl::finish_epoch() {
     active = false;
-    statistics = measure(film);
+    measure_film();
     publish();
 }
 
@@ -278,6 +298,7 @@ void RenderSession::Impl::control_loop() {
         std::optional<RenderRequest> next;
         Clock::time_point submitted;
         uint64_t next_epoch = 0;
+        bool republish = false;
         {
             std::unique_lock lock(mutex);
             if (snapshots_made != snapshots_asked) {
@@ -286,11 +307,13 @@ void RenderSession::Impl::control_loop() {
                 reported.notify_all();
             }
             const auto idle = [&] {
-                return !mailbox && !quit && snapshots_made == snapshots_asked && !stop_asked && (!active || paused);
+                return !mailbox && !quit && !republish_asked && snapshots_made == snapshots_asked && !stop_asked &&
+                       (!active || paused);
             };
             wake.wait(lock, [&] { return !idle(); });
             if (quit) return;
             if (snapshots_made != snapshots_asked) continue;
+            republish = std::exchange(republish_asked, false);
             if (mailbox && (!active || interruptible.load())) {
                 next = std::move(mailbox);
                 mailbox.reset();
@@ -301,15 +324,17 @@ void RenderSession::Impl::control_loop() {
                 max_seconds = next->max_seconds;
             } else if (!active) {
                 stop_asked = false;
-                continue;
             }
         }
         if (next) {
             last_cancel_seconds = seconds_between(submitted, Clock::now());
             begin_epoch(std::move(*next), next_epoch, submitted);
             update_status();
-            if (!active) continue;
+        } else if (republish) {
+            if (first_frame_out) publish();
+            continue;
         }
+        if (!active) continue;
 
         trace_slice();
         // Workers let go only for a newer request or the end, and then the epoch is lost anyway.
@@ -392,6 +417,15 @@ void RenderSession::stop() {
         const std::lock_guard lock(impl_->mutex);
         impl_->stop_asked = true;
         impl_->paused = false;
+    }
+    impl_->wake.notify_all();
+}
+
+void RenderSession::show_maps(bool wanted) {
+    if (impl_->maps_wanted.exchange(wanted) == wanted || !wanted) return;
+    {
+        const std::lock_guard lock(impl_->mutex);
+        impl_->republish_asked = true;
     }
     impl_->wake.notify_all();
 }

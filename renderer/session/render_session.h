@@ -20,7 +20,7 @@ struct RenderRequest {
     IntegratorSettings settings;
     uint32_t max_spp = std::numeric_limits<uint32_t>::max();       // the session idles when every pixel has this many
     double max_seconds = std::numeric_limits<double>::infinity();  // of rendering
-    double until_relative_error = 0;  // 0: off; looked at when spp is a power of two or every 16
+    double until_relative_error = 0;  // 0: off; looked at after 2, 4, 6, 8, 12, … 32, 48, … samples
 };
 
 struct SessionStatus {
@@ -61,6 +61,8 @@ class RenderSession {
     // The newest complete frame, or null before the first. Never blocks; the pointer stays valid until the next call.
     // One reader thread.
     const Frame* latest();
+    // Whether frames come with maps; the newest one is published again with them.
+    void show_maps(bool wanted);
     void pause();
     void resume();
     SessionStatus status() const;

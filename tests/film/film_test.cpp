@@ -30,26 +30,119 @@ TEST(Film, CoarseLatticesFillTheFrame) {
     }
 }
 
-TEST(Film, EstimatedErrorIsTheTrueOne) {
-    // Independent noise of known spread: the estimate must be the standard error of the mean.
+// Adds the same samples to every pixel that draw(index) gives.
+template <typename Draw>
+Film film_of(Vec2u extent, uint32_t spp, Draw&& draw) {
+    Film film(extent);
+    for (uint32_t y = 0; y < extent.y; ++y) {
+        for (uint32_t x = 0; x < extent.x; ++x) {
+            for (uint32_t i = 0; i < spp; ++i)
+                film.add({x, y}, i, Vec3(draw(i)), 1, {3, 2});
+        }
+    }
+    return film;
+}
+
+struct TrueErrors {
+    double mean = 0, within_stated = 0;
+};
+TrueErrors true_errors(const Film& film, double truth, double stated_95) {
+    TrueErrors out;
+    for (const FilmPixel& pixel : film.pixels()) {
+        const double value = static_cast<double>(pixel.radiance_sum.x) / pixel.count;
+        const double error = std::abs(value - truth) / (1.1 * truth);
+        out.mean += error / static_cast<double>(film.pixels().size());
+        out.within_stated += (error <= stated_95 ? 1.0 : 0.0) / static_cast<double>(film.pixels().size());
+    }
+    return out;
+}
+
+TEST(StatedError, OfIndependentNoiseIsTheTrueOne) {
     std::mt19937 engine(5);
     std::normal_distribution<float> noise(1.0f, 0.2f);
     for (const uint32_t spp : {4u, 64u}) {
-        Film film({200, 200});
-        for (uint32_t y = 0; y < 200; ++y) {
-            for (uint32_t x = 0; x < 200; ++x) {
-                for (uint32_t i = 0; i < spp; ++i)
-                    film.add({x, y}, i, Vec3(noise(engine)), 1);
-            }
-        }
-        const double expected = 0.2 / std::sqrt(static_cast<double>(spp)) / 1.1;
-        EXPECT_NEAR(measure(film).relative_error, expected, 0.02 * expected);
+        const Film film = film_of({200, 200}, spp, [&](uint32_t) { return noise(engine); });
+        const FilmStatistics stated = measure(film);
+        const double standard_error = 0.2 / std::sqrt(static_cast<double>(spp));
+        EXPECT_NEAR(stated.relative_error, std::sqrt(2 / 3.14159265) * standard_error / 1.1, 0.02 * standard_error);
+        EXPECT_NEAR(stated.relative_error_95, 1.96 * standard_error / 1.1, 0.04 * standard_error);
         double squares = 0;
         for (const float e : standard_error_map(film))
             squares += static_cast<double>(e) * static_cast<double>(e);
-        EXPECT_NEAR(std::sqrt(squares / 40000), 0.2 / std::sqrt(static_cast<double>(spp)), 0.003);
+        EXPECT_NEAR(std::sqrt(squares / 40000), standard_error, 0.02 * standard_error);
     }
     EXPECT_TRUE(std::isnan(measure(Film({4, 4})).relative_error));
+    EXPECT_TRUE(std::isnan(measure(Film({4, 4})).relative_error_95));
+}
+
+// Each replicate takes one sample from each of its strata: its mean is far better than its samples' spread lets expect.
+TEST(StatedError, OfStratifiedSamplesIsTheTrueOne) {
+    std::mt19937 engine(6);
+    std::uniform_real_distribution<float> unit(0, 1);
+    constexpr uint32_t strata = 16;
+    const Film film = film_of({100, 100}, 2 * strata, [&](uint32_t i) {
+        return (static_cast<float>(i / 2) + unit(engine)) / static_cast<float>(strata);
+    });
+    const FilmStatistics stated = measure(film);
+    const TrueErrors errors = true_errors(film, 0.5, stated.relative_error_95);
+    EXPECT_LT(errors.mean, 0.012) << "independent samples would be at 0.074";
+    EXPECT_NEAR(stated.relative_error / errors.mean, 1, 0.03);
+    EXPECT_NEAR(errors.within_stated, 0.95, 0.01);
+}
+
+// One sample in two hundred is two hundred times as bright: few pixels have seen one.
+TEST(StatedError, RareBrightSamplesAreNotHiddenByTheirOwnBrightness) {
+    std::mt19937 engine(7);
+    std::uniform_real_distribution<float> unit(0, 1);
+    const Film film = film_of({200, 200}, 8, [&](uint32_t) { return 1.0f + (unit(engine) < 0.005f ? 200.0f : 0.0f); });
+    // Truth is 2. A pixel without a bright sample is at 1, one with one of them at 26.
+    double mean = 0;
+    for (const FilmPixel& pixel : film.pixels())
+        mean += std::abs(static_cast<double>(pixel.radiance_sum.x) / pixel.count - 2) / 2.2 / 40000;
+    const double stated = measure(film).relative_error;
+    EXPECT_LT(stated, mean * 1.15);
+    EXPECT_GT(stated, mean * 0.40) << "half is what differences of skewed noise must lose";
+}
+
+TEST(StatedError, IsTheSameHoweverTheRowsAreSharedOut) {
+    std::mt19937 engine(8);
+    std::exponential_distribution<float> noise(1.0f);
+    const Film film = film_of({37, 53}, 6, [&](uint32_t) { return noise(engine); });
+    const FilmStatistics whole = measure(film);
+    const FilmStatistics parts = measure(film, [](uint32_t height, const RowWork& work) {
+        for (uint32_t end = height; end > 0; end -= std::min(end, 7u))
+            work(end - std::min(end, 7u), end);
+    });
+    EXPECT_EQ(whole.relative_error, parts.relative_error);
+    EXPECT_EQ(whole.relative_error_95, parts.relative_error_95);
+    EXPECT_EQ(whole.mean_luminance, parts.mean_luminance);
+}
+
+TEST(Maps, TheErrorsMeanIsThatOfThePictureAndCostsAreCounted) {
+    std::mt19937 engine(9);
+    std::exponential_distribution<float> noise(1.0f);
+    Film film = film_of({64, 48}, 8, [&](uint32_t) { return noise(engine); });
+    film.add({5, 6}, 8, Vec3(1), 1, {11, 6});
+    Frame frame;
+    frame.maps = ImageRgba32f(64, 48);
+    const FilmStatistics stated = measure(film);
+    for (uint32_t row = 0; row < 48; row += 16)
+        map_rows(film, stated.mean_luminance, row, row + 16, frame);
+    double sum = 0;
+    for (const Vec4& pixel : frame.maps.pixels())
+        sum += static_cast<double>(pixel[static_cast<int>(PixelMap::error)]);
+    EXPECT_NEAR(sum / (64 * 48), stated.relative_error, 0.03 * stated.relative_error);
+    EXPECT_EQ(frame.maps(4, 6), Vec4(frame.maps(4, 6).x, 8, 5, 3));
+    const Vec4 costly = frame.maps(5, 6);
+    EXPECT_EQ(costly[static_cast<int>(PixelMap::samples)], 9);
+    EXPECT_FLOAT_EQ(costly[static_cast<int>(PixelMap::rays)], (8 * 5 + 17) / 9.0f);
+    EXPECT_FLOAT_EQ(costly[static_cast<int>(PixelMap::bounces)], (8 * 3 + 11) / 9.0f);
+
+    // Of the first sample nothing is known yet.
+    const Film young = film_of({8, 8}, 1, [&](uint32_t) { return noise(engine); });
+    frame.maps = ImageRgba32f(8, 8);
+    map_rows(young, 1, 0, 8, frame);
+    EXPECT_LT(frame.maps(3, 3).x, 0);
 }
 
 }  // namespace

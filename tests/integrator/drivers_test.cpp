@@ -56,6 +56,7 @@ TEST(Drivers, BatchedEqualsScalarToTheBit) {
             settings.estimator = estimator;
             settings.sampler = sampler;
             RayCounts scalar_counts, batched_counts;
+            uint64_t segments = 0, shadow_rays = 0;
             std::vector<PixelSample> samples;
             for (uint32_t y = 0; y < view.extent.y; ++y) {
                 for (uint32_t x = 0; x < view.extent.x; ++x) {
@@ -70,11 +71,17 @@ TEST(Drivers, BatchedEqualsScalarToTheBit) {
                     const RadianceSample expected = trace_sample(*world, view, settings, batch[i], scalar_counts);
                     ASSERT_EQ(out[i].radiance, expected.radiance);
                     ASSERT_EQ(out[i].alpha, expected.alpha);
+                    ASSERT_EQ(out[i].segments, expected.segments);
+                    ASSERT_EQ(out[i].shadow_rays, expected.shadow_rays);
+                    segments += out[i].segments;
+                    shadow_rays += out[i].shadow_rays;
                 }
             }
             EXPECT_EQ(scalar_counts.camera, batched_counts.camera);
             EXPECT_EQ(scalar_counts.bounce, batched_counts.bounce);
             EXPECT_EQ(scalar_counts.shadow, batched_counts.shadow);
+            EXPECT_EQ(segments, batched_counts.camera + batched_counts.bounce) << "what the paths say of themselves";
+            EXPECT_EQ(shadow_rays, batched_counts.shadow);
         }
     }
 }

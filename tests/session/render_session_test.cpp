@@ -134,6 +134,57 @@ TEST(RenderSession, StopsAtTheAskedErrorAndTime) {
     EXPECT_GE(finished(session).render_seconds, 0.05);
 }
 
+TEST(RenderSession, MapsComeWhenTheyAreAskedForAndChangeNothing) {
+    const RenderRequest wanted = request_from(0, 6);
+    RenderSession session({.threads = 2});
+    session.submit(wanted);
+    const Frame plain = finished(session);
+    EXPECT_EQ(plain.maps.size(), 0u);
+
+    session.show_maps(true);
+    const Frame* mapped = session.latest();
+    for (int i = 0; i < 5000 && mapped->serial == plain.serial; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        mapped = session.latest();
+    }
+    ASSERT_EQ(mapped->maps.size(), plain.image.size()) << "a picture that is done is published again";
+    EXPECT_TRUE(same_bits(plain, *mapped));
+    double rays = 0, samples = 0;
+    for (const Vec4& pixel : mapped->maps.pixels()) {
+        EXPECT_GE(pixel[static_cast<int>(PixelMap::error)], 0);
+        samples += static_cast<double>(pixel[static_cast<int>(PixelMap::samples)]);
+        rays +=
+            static_cast<double>(pixel[static_cast<int>(PixelMap::rays)] * pixel[static_cast<int>(PixelMap::samples)]);
+    }
+    EXPECT_EQ(samples, static_cast<double>(plain.statistics.total_samples));
+    EXPECT_NEAR(rays, static_cast<double>(plain.rays), 1e-5 * static_cast<double>(plain.rays));
+
+    session.submit(wanted);
+    EXPECT_EQ(finished(session).maps.size(), plain.image.size());
+    session.show_maps(false);
+    session.submit(wanted);
+    EXPECT_EQ(finished(session).maps.size(), 0u);
+}
+
+TEST(RenderSession, FramesTellHowTheErrorFell) {
+    RenderSession session({.threads = 2});
+    session.submit(request_from(0, 80));
+    const Frame frame = finished(session);
+    const std::vector<ErrorPoint>& points = frame.history.points();
+    ASSERT_GT(points.size(), 8u);
+    EXPECT_EQ(points.front().spp, 2u);
+    EXPECT_EQ(points.back().spp, 80u);
+    EXPECT_EQ(points.back().relative_error, frame.statistics.relative_error);
+    EXPECT_EQ(points.back().relative_error_95, frame.statistics.relative_error_95);
+    EXPECT_LT(points.back().relative_error, 0.5 * points.front().relative_error);
+    for (size_t i = 1; i < points.size(); ++i)
+        EXPECT_GT(points[i].seconds, points[i - 1].seconds);
+    // Another view begins anew.
+    session.submit(request_from(1, 6));
+    EXPECT_EQ(finished(session).history.points().front().spp, 2u);
+    EXPECT_EQ(session.latest()->history.points().back().spp, 6u);
+}
+
 TEST(RenderSession, RefusesWhatCannotBeRendered) {
     RenderSession session({.threads = 1});
     RenderRequest request = request_from(0, 1);
