@@ -40,10 +40,10 @@ std::optional<uint32_t> choose_animation(const RenderOptions& options, const Sce
 }
 
 std::shared_ptr<const Scene> scene_at(const std::shared_ptr<const Scene>& rest, std::optional<uint32_t> animation,
-                                      double time_s, std::vector<std::string>& warnings) {
+                                      double time_s, std::vector<std::string>& warnings, const Scene* like) {
     if (!animation) return rest;
     std::vector<NodeId> left_out;
-    auto posed = posed_scene(rest, *animation, static_cast<float>(time_s), &left_out);
+    auto posed = posed_scene(rest, *animation, static_cast<float>(time_s), &left_out, like);
     for (const NodeId node : left_out) {
         warnings.push_back(
             fmt::format("/nodes/{}: at {} s its transform or the shape of its mesh is not finite; it is not shown",

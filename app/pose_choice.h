@@ -20,7 +20,8 @@ std::string animation_title(const Scene& scene, uint32_t animation);
 std::optional<uint32_t> choose_animation(const RenderOptions& options, const Scene& rest);
 
 // The scene at that time; rest itself where no animation is given. What could not be posed is added to the warnings.
+// Shares its deformed meshes with `like`, where they are deformed alike; null: with rest.
 std::shared_ptr<const Scene> scene_at(const std::shared_ptr<const Scene>& rest, std::optional<uint32_t> animation,
-                                      double time_s, std::vector<std::string>& warnings);
+                                      double time_s, std::vector<std::string>& warnings, const Scene* like = nullptr);
 
 }  // namespace candela

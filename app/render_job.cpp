@@ -10,6 +10,7 @@
 #include "app/pose_choice.h"
 #include "renderer/image/codec.h"
 #include "renderer/io/load_gltf.h"
+#include "renderer/scene/without_pictures.h"
 
 namespace candela {
 
@@ -45,13 +46,8 @@ bool has_light(const Scene& scene) {
     return false;
 }
 
-std::shared_ptr<const Environment> choose_environment(const RenderOptions& options, const Scene& scene,
-                                                      std::vector<std::string>& warnings) {
-    if (!options.hdri.empty() || options.sky) return read_environment(options);
-    if (scene.environment) return std::make_shared<const Environment>(*scene.environment);
-    if (has_light(scene)) return nullptr;
-    warnings.push_back(
-        "the scene has no light of its own, so a neutral sky of radiance 1 lights it; --sky or --hdri choose another");
+// Where neither the options nor the file bring an environment.
+std::shared_ptr<const Environment> neutral_sky() {
     auto sky = std::make_shared<Environment>();
     sky->radiance = ImageRgb32f(1, 1, Vec3(1));
     return sky;
@@ -125,7 +121,133 @@ void make_job_world(RenderJob& job, const std::atomic<bool>* cancel,
         throw CommandError(stopped ? ExitStatus::interrupted : ExitStatus::internal_error,
                            fmt::format("{}: {}", job.scene_path, error.what()));
     }
-    job.build_seconds = seconds_since(build_start);
+    job.build_seconds += seconds_since(build_start);
+}
+
+// One opening. The world is built as soon as the geometry is there; when the pictures are too, it takes them in.
+class Opening {
+  public:
+    Opening(const RenderOptions& options, const std::function<void(const char*, double)>& progress,
+            const std::atomic<bool>* cancel, const std::function<void(RenderJob)>& preview)
+        : options_(options), progress_(progress), cancel_(cancel), preview_(preview) {}
+
+    RenderJob run();
+
+  private:
+    Scene load(Diagnostics& diagnostics);
+    void build_without_pictures(const Scene& loaded);
+    void build_world_of(std::shared_ptr<const Scene> rest);
+    // As far as it is known before the scene's pictures are there.
+    std::shared_ptr<const Environment> environment_for(const Scene& scene);
+    void fill_request(RenderJob& job, const Scene& scene) const;
+
+    const RenderOptions& options_;
+    const std::function<void(const char*, double)>& progress_;
+    const std::atomic<bool>* cancel_;
+    const std::function<void(RenderJob)>& preview_;
+    RenderJob job_;
+    // Before the pictures: the world, its scene with the real materials, and the environment.
+    std::shared_ptr<const Scene> early_scene_;
+    std::shared_ptr<const Environment> early_environment_, given_environment_;
+    std::vector<std::string> environment_warnings_, pose_warnings_;
+};
+
+std::shared_ptr<const Environment> Opening::environment_for(const Scene& scene) {
+    environment_warnings_.clear();
+    if (!options_.hdri.empty() || options_.sky) {
+        if (!given_environment_) given_environment_ = read_environment(options_);
+        return given_environment_;
+    }
+    if (scene.environment) return std::make_shared<const Environment>(*scene.environment);
+    if (has_light(scene)) return nullptr;
+    environment_warnings_.emplace_back(
+        "the scene has no light of its own, so a neutral sky of radiance 1 lights it; --sky or --hdri choose another");
+    return early_environment_ ? early_environment_ : neutral_sky();
+}
+
+void Opening::fill_request(RenderJob& job, const Scene& scene) const {
+    job.request.world = job.world;
+    job.request.view.camera = choose_camera(options_, scene, job.world->bounds);
+    job.request.view.extent = choose_extent(options_, job.request.view.camera);
+    job.request.settings = options_.integrator;
+    const bool limited = options_.seconds || options_.until_error_percent;
+    job.request.max_spp = options_.spp.value_or(limited ? std::numeric_limits<uint32_t>::max() : 256u);
+    if (options_.seconds) job.request.max_seconds = *options_.seconds;
+    if (options_.until_error_percent) job.request.until_relative_error = *options_.until_error_percent / 100.0;
+}
+
+void Opening::build_without_pictures(const Scene& loaded) {
+    progress_("build", 0.4);
+    const auto rest = std::make_shared<const Scene>(loaded);
+    early_scene_ = scene_at(rest, choose_animation(options_, *rest), first_time_s(options_), pose_warnings_);
+    const auto stand_in = std::make_shared<const Scene>(without_pictures(*early_scene_));
+    // A scene that only its pictures light is shown under a sky until then.
+    early_environment_ = environment_for(*early_scene_);
+    const bool dark = early_environment_ == nullptr && !has_light(*stand_in);
+    if (dark) early_environment_ = neutral_sky();
+    BuildOptions build;
+    build.environment = place_environment(early_environment_.get(), options_);
+    build.cancel = cancel_;
+    make_job_world(job_, cancel_, [&] { return build_world(stand_in, build); });
+    if (!preview_) return;
+    RenderJob shown = job_;
+    shown.rest = rest;
+    shown.environment = early_environment_;
+    fill_request(shown, *stand_in);
+    preview_(std::move(shown));
+}
+
+// From nothing, or from what was built without the pictures.
+void Opening::build_world_of(std::shared_ptr<const Scene> rest) {
+    progress_("build", 1.0);
+    const std::shared_ptr<const World> early = std::move(job_.world);
+    pose_warnings_.clear();
+    const std::shared_ptr<const Scene> scene =
+        scene_at(rest, choose_animation(options_, *rest), first_time_s(options_), pose_warnings_, early_scene_.get());
+    job_.environment = environment_for(*scene);
+    job_.rest = std::move(rest);
+    BuildOptions build;
+    build.cancel = cancel_;
+    if (!early || job_.environment != early_environment_)
+        build.environment = place_environment(job_.environment.get(), options_);
+    make_job_world(job_, cancel_, [&] {
+        return early ? with_pictures(early, scene, job_.environment == early_environment_, build)
+                     : build_world(scene, build);
+    });
+    fill_request(job_, *scene);
+}
+
+Scene Opening::load(Diagnostics& diagnostics) {
+    LoadOptions load;
+    static_cast<LoadLimits&>(load) = options_.limits;
+    load.scene = options_.scene_index;
+    load.variant = options_.variant;
+    load.cancel = cancel_;
+    load.progress = [&](float fraction, const char* step) { progress_(step, static_cast<double>(fraction)); };
+    load.geometry_ready = [&](const Scene& scene) { build_without_pictures(scene); };
+    try {
+        return load_gltf(job_.scene_path, diagnostics, load);
+    } catch (const ChoiceError& error) {
+        throw CommandError(ExitStatus::wrong_usage, error.what());
+    } catch (const LoadError& error) {
+        const bool stopped = cancel_ != nullptr && cancel_->load();
+        throw CommandError(stopped ? ExitStatus::interrupted : ExitStatus::unreadable_scene, error.what());
+    }
+}
+
+RenderJob Opening::run() {
+    job_.scene_path = options_.scene.empty() ? default_scene().string() : options_.scene;
+    const Clock::time_point start = Clock::now();
+    Diagnostics diagnostics;
+    auto rest = std::make_shared<const Scene>(load(diagnostics));
+    job_.load_seconds = seconds_since(start) - job_.build_seconds;
+    build_world_of(std::move(rest));
+    for (const Diagnostic& warning : diagnostics.warnings()) {
+        job_.warnings.push_back(warning.where.empty() ? warning.message : warning.where + ": " + warning.message);
+    }
+    for (const std::vector<std::string>& more : {environment_warnings_, pose_warnings_, job_.world->warnings})
+        job_.warnings.insert(job_.warnings.end(), more.begin(), more.end());
+    return std::move(job_);
 }
 
 }  // namespace
@@ -177,6 +299,7 @@ void show_pose(RenderJob& job, const RenderOptions& options, uint32_t animation,
     const std::shared_ptr<const Scene> scene = scene_at(job.rest, animation, time_s, warnings);
     BuildOptions build;
     build.cancel = cancel;
+    job.build_seconds = 0;
     make_job_world(job, cancel, [&] { return with_pose(job.world, scene, build); });
     job.request.world = job.world;
     // A view that was framed or given stays.
@@ -191,58 +314,14 @@ void show_variant(RenderJob& job, std::optional<uint32_t> variant, const std::at
     job.rest = rest;
     BuildOptions build;
     build.cancel = cancel;
+    job.build_seconds = 0;
     make_job_world(job, cancel, [&] { return with_pose(job.world, scene, build); });
     job.request.world = job.world;
 }
 
 RenderJob prepare_render(const RenderOptions& options, const std::function<void(const char*, double)>& progress,
-                         const std::atomic<bool>* cancel) {
-    RenderJob job;
-    job.scene_path = options.scene.empty() ? default_scene().string() : options.scene;
-
-    // Load.
-    const Clock::time_point load_start = Clock::now();
-    Diagnostics diagnostics;
-    LoadOptions load;
-    static_cast<LoadLimits&>(load) = options.limits;
-    load.scene = options.scene_index;
-    load.variant = options.variant;
-    load.cancel = cancel;
-    load.progress = [&](float fraction, const char*) { progress("load", static_cast<double>(fraction)); };
-    std::shared_ptr<const Scene> scene;
-    try {
-        scene = std::make_shared<const Scene>(load_gltf(job.scene_path, diagnostics, load));
-    } catch (const ChoiceError& error) {
-        throw CommandError(ExitStatus::wrong_usage, error.what());
-    } catch (const LoadError& error) {
-        const bool stopped = cancel != nullptr && cancel->load();
-        throw CommandError(stopped ? ExitStatus::interrupted : ExitStatus::unreadable_scene, error.what());
-    }
-    for (const Diagnostic& warning : diagnostics.warnings()) {
-        job.warnings.push_back(warning.where.empty() ? warning.message : warning.where + ": " + warning.message);
-    }
-    job.load_seconds = seconds_since(load_start);
-
-    job.environment = choose_environment(options, *scene, job.warnings);
-    job.rest = scene;
-    scene = scene_at(scene, choose_animation(options, *scene), first_time_s(options), job.warnings);
-    BuildOptions build;
-    build.environment = place_environment(job.environment.get(), options);
-    build.cancel = cancel;
-    make_job_world(job, cancel, [&] { return build_world(scene, build); });
-    job.warnings.insert(job.warnings.end(), job.world->warnings.begin(), job.world->warnings.end());
-    progress("build", 1.0);
-
-    // What to render, and how long.
-    job.request.world = job.world;
-    job.request.view.camera = choose_camera(options, *scene, job.world->bounds);
-    job.request.view.extent = choose_extent(options, job.request.view.camera);
-    job.request.settings = options.integrator;
-    const bool limited = options.seconds || options.until_error_percent;
-    job.request.max_spp = options.spp.value_or(limited ? std::numeric_limits<uint32_t>::max() : 256u);
-    if (options.seconds) job.request.max_seconds = *options.seconds;
-    if (options.until_error_percent) job.request.until_relative_error = *options.until_error_percent / 100.0;
-    return job;
+                         const std::atomic<bool>* cancel, const std::function<void(RenderJob)>& preview) {
+    return Opening(options, progress, cancel, preview).run();
 }
 
 }  // namespace candela

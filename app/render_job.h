@@ -19,7 +19,7 @@ struct RenderJob {
     std::shared_ptr<const Environment> environment;
     RenderRequest request;
     std::vector<std::string> warnings;
-    double load_seconds = 0, build_seconds = 0;
+    double load_seconds = 0, build_seconds = 0;  // one after the other; pictures decode during both
 };
 
 // Where the scenes that ship with candela lie. Throws CommandError.
@@ -27,9 +27,11 @@ std::filesystem::path assets_folder();
 // The scene that opens without one being named. Throws CommandError where the assets are not found.
 std::filesystem::path default_scene();
 
-// Loads the scene and builds its world. progress: step, 0..1. Throws CommandError (unreadable scene, wrong usage).
+// Loads the scene and builds its world, while its pictures are decoded on other threads. progress: step, 0..1. preview:
+// gets the job as it would be without the pictures, before they are all decoded, if there are any; what follows may
+// still fail. Throws CommandError (unreadable scene, wrong usage).
 RenderJob prepare_render(const RenderOptions& options, const std::function<void(const char*, double)>& progress,
-                         const std::atomic<bool>* cancel);
+                         const std::atomic<bool>* cancel, const std::function<void(RenderJob)>& preview = {});
 
 // Shows another moment of the animation: a new world, and the file's camera where it now stands. Throws CommandError.
 void show_pose(RenderJob& job, const RenderOptions& options, uint32_t animation, double time_s,

@@ -11,6 +11,7 @@ namespace candela {
 
 struct PictureSize {
     uint32_t width = 0, height = 0;
+    bool opaque = false;  // the format has no alpha, or the head says that this picture has none
 };
 
 // Of PNG, JPEG, WebP or KTX2; nothing where the head is none of theirs or ends too early.

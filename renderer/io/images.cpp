@@ -4,58 +4,157 @@
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
+#include "renderer/image/picture_size.h"
+#include "renderer/io/files.h"
+
 namespace candela {
+
+namespace {
+
+ImageAlpha alpha_of(const ImageRgba8& image) {
+    const bool opaque =
+        std::all_of(image.pixels().begin(), image.pixels().end(), [](const Rgba8& p) { return p.a == 255; });
+    return opaque ? ImageAlpha::opaque : ImageAlpha::transparent;
+}
+
+}  // namespace
+
+struct ImageDecoding::Impl {
+    std::vector<EncodedImage> images;
+    ImageDecodeOptions options;
+    std::vector<DecodedImage> out;
+    std::atomic<size_t> next{0}, finished{0};
+    std::atomic<uint64_t> used_bytes{0};
+    std::atomic<bool> left{false};
+    // Of low priority: where an urgent task waits, a thread comes to it from here after the image at hand.
+    tbb::task_arena arena;
+    tbb::task_group group;
+
+    Impl(std::vector<EncodedImage> encoded, const ImageDecodeOptions& decode_options)
+        : images(std::move(encoded)),
+          options(decode_options),
+          out(images.size()),
+          arena(options.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(options.threads), 1,
+                tbb::task_arena::priority::low) {}
+
+    bool cancelled() const {
+        return left.load(std::memory_order_relaxed) ||
+               (options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed));
+    }
+    // Takes what the image's head says that it decodes to; false: there is not as much left.
+    bool book(std::span<const std::byte> bytes, DecodedImage& image);
+    void decode(size_t i);
+    bool take_next();
+};
+
+bool ImageDecoding::Impl::book(std::span<const std::byte> bytes, DecodedImage& image) {
+    const std::optional<PictureSize> size = picture_size(bytes);
+    if (!size) return true;
+    const uint64_t wanted = uint64_t{size->width} * size->height * sizeof(Rgba8);
+    uint64_t used = used_bytes.load();
+    do {
+        if (wanted > options.max_total_bytes - used) return false;
+    } while (!used_bytes.compare_exchange_weak(used, used + wanted));
+    if (options.book && !options.book(wanted)) {
+        used_bytes -= wanted;
+        return false;
+    }
+    image.booked_bytes = wanted;
+    return true;
+}
+
+void ImageDecoding::Impl::decode(size_t i) {
+    DecodedImage& image = out[i];
+    const EncodedImage& encoded = images[i];
+    if (cancelled()) {
+        image.error = "cancelled";
+        return;
+    }
+    std::vector<std::byte> owned;
+    std::span<const std::byte> bytes;
+    try {
+        if (const auto* file = std::get_if<std::filesystem::path>(&encoded.source)) {
+            bytes = owned = read_file(*file);
+        } else if (const auto* uri = std::get_if<DataUri>(&encoded.source)) {
+            bytes = owned = decode_data_uri(uri->text);
+        } else {
+            bytes = std::get<std::span<const std::byte>>(encoded.source);
+        }
+    } catch (const std::exception& error) {
+        image.error = error.what();
+        image.unread = true;
+        return;
+    }
+    if (bytes.empty()) {
+        image.error = "no data";
+        return;
+    }
+    try {
+        DecodeLimits limits = options.limits;
+        if (!book(bytes, image)) {
+            // The message says what is left of the memory for all.
+            image.too_much = true;
+            const uint64_t left_bytes = options.book ? 0 : options.max_total_bytes - used_bytes.load();
+            limits.max_memory_bytes = std::min(limits.max_memory_bytes, left_bytes);
+        }
+        image.pixels = decode_ldr(bytes, limits);
+        image.alpha = alpha_of(image.pixels);
+        image.oddities = basisu_oddities(bytes, encoded.as_color, encoded.as_data);
+        // A thread that waits for rows of this image must not begin with another image.
+        if (encoded.mips)
+            tbb::this_task_arena::isolate([&] { image.smaller = make_mip_chain(image.pixels, *encoded.mips); });
+    } catch (const std::exception& error) {
+        image.error = error.what();
+        image.pixels = {};
+    }
+}
+
+bool ImageDecoding::Impl::take_next() {
+    const size_t i = next++;
+    if (i >= images.size()) return false;
+    decode(i);
+    ++finished;
+    return true;
+}
+
+ImageDecoding::ImageDecoding(std::vector<EncodedImage> images, const ImageDecodeOptions& options)
+    : impl_(std::make_unique<Impl>(std::move(images), options)) {
+    // All threads draw from one counter, in file order.
+    if (options.threads == 1) return;
+    for (size_t i = 0; i < impl_->images.size(); ++i)
+        impl_->arena.enqueue(impl_->group.defer([impl = impl_.get()] { impl->take_next(); }));
+}
+
+ImageDecoding::~ImageDecoding() {
+    impl_->left = true;
+    impl_->arena.execute([&] { impl_->group.wait(); });
+}
+
+std::vector<DecodedImage> ImageDecoding::finish() {
+    const auto report = [&] {
+        if (!impl_->options.progress || impl_->images.empty()) return;
+        impl_->options.progress(static_cast<float>(impl_->finished.load()) /
+                                static_cast<float>(impl_->images.size()));
+    };
+    impl_->arena.execute([&] {
+        report();
+        while (impl_->take_next())
+            report();
+        impl_->group.wait();
+    });
+    // What the threads have written is seen from here on.
+    if (impl_->finished.load(std::memory_order_acquire) != impl_->images.size()) std::terminate();
+    if (impl_->options.progress) impl_->options.progress(1.0f);
+    return std::move(impl_->out);
+}
 
 std::vector<DecodedImage> decode_images(std::span<const std::span<const std::byte>> encoded,
                                         const ImageDecodeOptions& options) {
-    std::vector<DecodedImage> out(encoded.size());
-    std::atomic<size_t> next{0};
-    std::atomic<size_t> finished{0};
-    std::atomic<uint64_t> used_bytes{0};
-    const auto cancelled = [&] { return options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed); };
-    const auto decode_one = [&](size_t i) {
-        if (cancelled()) {
-            out[i].error = "cancelled";
-            return;
-        }
-        if (encoded[i].empty()) {
-            out[i].error = "no data";
-            return;
-        }
-        try {
-            // No picture may be larger than what is left of the memory for all.
-            DecodeLimits limits = options.limits;
-            const uint64_t used = used_bytes.load();
-            const uint64_t left = used < options.max_total_bytes ? options.max_total_bytes - used : 0;
-            limits.max_memory_bytes = std::min(limits.max_memory_bytes, left);
-            out[i].pixels = decode_ldr(encoded[i], limits);
-            used_bytes += out[i].pixels.size() * sizeof(Rgba8);
-        } catch (const std::exception& error) {
-            out[i].error = error.what();
-        }
-    };
-
-    // All workers draw from one counter, in file order; the calling thread works too and alone reports progress.
-    const auto work = [&](bool reports) {
-        for (size_t i = next++; i < encoded.size(); i = next++) {
-            decode_one(i);
-            const size_t done = ++finished;
-            if (reports && options.progress)
-                options.progress(static_cast<float>(done) / static_cast<float>(encoded.size()));
-        }
-    };
-    const int threads = options.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(options.threads);
-    tbb::task_arena arena(threads);
-    arena.execute([&] {
-        tbb::task_group group;
-        const int helpers = std::max(arena.max_concurrency() - 1, 0);
-        for (int k = 0; k < helpers; ++k)
-            group.run([&] { work(false); });
-        work(true);
-        group.wait();
-    });
-    if (options.progress) options.progress(1.0f);
-    return out;
+    std::vector<EncodedImage> images;
+    images.reserve(encoded.size());
+    for (const std::span<const std::byte>& each : encoded)
+        images.push_back({each, std::nullopt, false, false});
+    return ImageDecoding(std::move(images), options).finish();
 }
 
 }  // namespace candela

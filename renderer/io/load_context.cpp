@@ -2,6 +2,7 @@
 #include "renderer/io/load_context.h"
 
 #include <limits>
+#include <utility>
 
 namespace candela {
 
@@ -13,12 +14,31 @@ void LoadContext::fail_choice(std::string where, std::string reason) const {
     throw ChoiceError(path_, std::move(where), std::move(reason));
 }
 
+bool LoadContext::try_charge(uint64_t bytes) {
+    uint64_t used = used_bytes_.load();
+    do {
+        if (bytes > options_.max_memory_bytes - used) return false;
+    } while (!used_bytes_.compare_exchange_weak(used, used + bytes));
+    return true;
+}
+
 void LoadContext::charge(uint64_t bytes, const std::string& where) {
-    if (bytes > bytes_left()) {
-        fail(where, "needs " + std::to_string(bytes) + " bytes, more than the memory limit of " +
-                        std::to_string(options_.max_memory_bytes) + " bytes allows; --limit-memory raises it");
+    while (!try_charge(bytes)) {
+        if (relief_) {
+            std::exchange(relief_, nullptr)();
+            continue;
+        }
+        throw OverMemoryLimit(path_, where,
+                              "needs " + std::to_string(bytes) + " bytes, more than the memory limit of " +
+                                  std::to_string(options_.max_memory_bytes) +
+                                  " bytes allows; --limit-memory raises it");
     }
-    used_bytes_ += bytes;
+}
+
+void LoadContext::release(uint64_t bytes) {
+    uint64_t used = used_bytes_.load();
+    while (!used_bytes_.compare_exchange_weak(used, used - std::min(used, bytes))) {
+    }
 }
 
 void LoadContext::charge(uint64_t count, uint64_t bytes_each, const std::string& where) {

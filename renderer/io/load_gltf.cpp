@@ -21,7 +21,6 @@
 #include "renderer/io/structure.h"
 #include "renderer/io/tinygltf.h"
 #include "renderer/io/variants.h"
-#include "renderer/scene/color_mips.h"
 #include "renderer/scene/pose.h"
 
 namespace candela {
@@ -93,6 +92,7 @@ Scene load(LoadContext& context, std::span<const std::byte> bytes, const std::fi
     load_instancing(context, model, accessors, scene);
     load_lights(context, model, scene);
     load_cameras(context, model, scene);
+    if (context.options().decode_images) images.begin(scene);
     std::vector<Mesh> meshes = load_meshes(context, model, accessors, scene);
     give_strokes_bodies(context, scene, meshes);
 
@@ -106,9 +106,9 @@ Scene load(LoadContext& context, std::span<const std::byte> bytes, const std::fi
     take_rest_pose(context, scene);
 
     if (context.options().decode_images) {
+        if (images.any_begun() && context.options().geometry_ready) context.options().geometry_ready(scene);
         context.progress(0.4f, "images");
-        images.decode(scene);
-        make_color_mips(scene);
+        images.finish(scene);
         load_image_based_light(context, document, images, scene);
     }
     if (context.options().measure_images) images.measure(scene);

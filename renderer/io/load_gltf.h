@@ -39,9 +39,13 @@ struct LoadOptions : LoadLimits {
     bool measure_images = false;  // without decoding them
     // A required extension that is not supported does not end the load, but is listed as refused.
     bool list_refused = false;
-    // Called with 0..1 and a word for the step ("reading", "images", "tangents"), from the loading thread only.
+    // Called with 0..1 and a word for the step ("reading", "meshes", "tangents", "images"), from the loading thread
+    // only.
     std::function<void(float, const char*)> progress;
     const std::atomic<bool>* cancel = nullptr;  // set: the load ends soon with LoadError "cancelled"
+    // Called from the loading thread, if the scene has pictures, once all is there but their pixels and an environment
+    // made of pictures: others decode meanwhile. What it throws ends the load.
+    std::function<void(const Scene&)> geometry_ready;
 };
 
 // Throws LoadError, ChoiceError where options name a scene or a variant that the file has not.

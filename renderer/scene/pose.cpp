@@ -141,7 +141,7 @@ std::vector<NodeId> pose_scene(Scene& scene, const Scene* like) {
 }
 
 std::shared_ptr<const Scene> posed_scene(const std::shared_ptr<const Scene>& rest, uint32_t animation, float time_s,
-                                         std::vector<NodeId>* left_out) {
+                                         std::vector<NodeId>* left_out, const Scene* like) {
     auto scene = std::make_shared<Scene>(*rest);
     std::vector<float> value;
     for (const AnimationChannel& channel : rest->animations[animation]->channels) {
@@ -152,7 +152,7 @@ std::shared_ptr<const Scene> posed_scene(const std::shared_ptr<const Scene>& res
     // A cone may not be wider inside than outside, whichever of both was driven first.
     for (PunctualLight& light : scene->lights)
         light.inner_cone_radians = std::min(light.inner_cone_radians, light.outer_cone_radians);
-    std::vector<NodeId> lost = pose_scene(*scene, rest.get());
+    std::vector<NodeId> lost = pose_scene(*scene, like != nullptr ? like : rest.get());
     if (left_out != nullptr) *left_out = std::move(lost);
     return scene;
 }

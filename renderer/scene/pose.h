@@ -19,8 +19,8 @@ std::vector<NodeId> pose_scene(Scene& scene, const Scene* like = nullptr);
 // The scene as it stands at a time of an animation, which is clamped to the animation's duration; what the animation
 // does not drive stays as in rest, the scene as loaded. Meshes that are not deformed otherwise than in rest, pictures
 // and everything else that is large are shared with rest. Instances come in the same order in all poses, unless the
-// animation shows or hides nodes. left_out: as pose_scene returns it.
+// animation shows or hides nodes. left_out: as pose_scene returns it. like: as pose_scene takes it; null: rest.
 std::shared_ptr<const Scene> posed_scene(const std::shared_ptr<const Scene>& rest, uint32_t animation, float time_s,
-                                         std::vector<NodeId>* left_out = nullptr);
+                                         std::vector<NodeId>* left_out = nullptr, const Scene* like = nullptr);
 
 }  // namespace candela

@@ -196,6 +196,9 @@ struct Material {
     bool is_thin_glass() const { return transmission.factor > 0.0f && volume.thickness_factor <= 0.0f; }
 };
 
+// Whether all texels of an image are opaque.
+enum class ImageAlpha : uint8_t { unknown, opaque, transparent };
+
 // 8 bits a channel as stored in the file; whether it is sRGB follows from the use, not from the image.
 struct SceneImage {
     std::string name;
@@ -203,6 +206,7 @@ struct SceneImage {
     uint64_t pixel_count = 0;                  // as the head of the picture says; 0: unknown, or decoded
     // Levels 1, 2, … (mip_chain.h) of an image whose texels are colours; null: none.
     std::shared_ptr<const std::vector<ImageRgba8>> smaller = nullptr;
+    ImageAlpha alpha = ImageAlpha::unknown;  // a decoder may have looked; of what is not decoded, the head may tell
 };
 
 enum class LightKind : uint8_t { point, spot, directional };

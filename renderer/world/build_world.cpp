@@ -121,6 +121,18 @@ std::shared_ptr<World> compile(std::shared_ptr<const Scene> scene_pointer, const
 
 }  // namespace
 
+std::shared_ptr<const World> with_pictures(const std::shared_ptr<const World>& before,
+                                           std::shared_ptr<const Scene> scene, bool keep_environment,
+                                           const BuildOptions& options) {
+    const std::shared_ptr<World> world = compile(std::move(scene), before.get(), options);
+    world->warnings = before->warnings;
+    world->lights.environment =
+        keep_environment ? before->lights.environment
+                         : make_environment(options.environment ? options.environment : world->scene->environment);
+    gather_lights(*world, before.get());
+    return world;
+}
+
 std::shared_ptr<const World> build_world(std::shared_ptr<const Scene> scene, const BuildOptions& options) {
     const std::shared_ptr<World> world = compile(std::move(scene), nullptr, options);
     warn_of_shared_faces(*world);

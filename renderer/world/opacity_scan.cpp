@@ -7,10 +7,10 @@ namespace candela {
 
 namespace {
 
-AlphaKnown alpha_of(const ImageRgba8& image) {
+ImageAlpha alpha_of(const ImageRgba8& image) {
     const bool transparent =
         std::any_of(image.pixels().begin(), image.pixels().end(), [](const Rgba8& p) { return p.a != 255; });
-    return transparent ? AlphaKnown::transparent : AlphaKnown::opaque;
+    return transparent ? ImageAlpha::transparent : ImageAlpha::opaque;
 }
 
 bool same_images(const Scene& a, const Scene& b) {
@@ -26,7 +26,7 @@ OpacityScan::OpacityScan(World& world, const World* before)
     if (before != nullptr && same_images(scene, *before->scene)) {
         world.image_alpha = before->image_alpha;
     } else {
-        world.image_alpha.assign(scene.images.size(), static_cast<uint8_t>(AlphaKnown::unknown));
+        world.image_alpha.assign(scene.images.size(), ImageAlpha::unknown);
     }
     for (const std::shared_ptr<const Animation>& animation : scene.animations) {
         for (const AnimationChannel& channel : animation->channels) {
@@ -38,13 +38,16 @@ OpacityScan::OpacityScan(World& world, const World* before)
     }
 }
 
-bool OpacityScan::texture_has_alpha(TextureId id) {
+bool OpacityScan::texture_may_have_alpha(TextureId id) {
     const ImageId image = world_.scene->textures[id.value].image;
-    if (!image.valid() || !world_.scene->images[image.value].pixels) return false;
-    uint8_t& known = world_.image_alpha[image.value];
-    if (static_cast<AlphaKnown>(known) == AlphaKnown::unknown)
-        known = static_cast<uint8_t>(alpha_of(*world_.scene->images[image.value].pixels));
-    return static_cast<AlphaKnown>(known) == AlphaKnown::transparent;
+    if (!image.valid()) return false;
+    const SceneImage& source = world_.scene->images[image.value];
+    if (source.alpha != ImageAlpha::unknown) return source.alpha == ImageAlpha::transparent;
+    // Of a picture that is still to come nothing is known.
+    if (!source.pixels) return true;
+    ImageAlpha& known = world_.image_alpha[image.value];
+    if (known == ImageAlpha::unknown) known = alpha_of(*source.pixels);
+    return known == ImageAlpha::transparent;
 }
 
 bool OpacityScan::may_be_transparent(const Primitive& primitive) {
@@ -63,7 +66,7 @@ bool OpacityScan::lets_light_through(MaterialId id, const Primitive& primitive) 
     if (animated_[index] != 0) return true;
     const float limit = material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff : 1.0f;
     if (material.base_color_factor.a < limit) return true;
-    if (material.base_color.valid() && texture_has_alpha(material.base_color.texture)) return true;
+    if (material.base_color.valid() && texture_may_have_alpha(material.base_color.texture)) return true;
     return std::any_of(primitive.colors.begin(), primitive.colors.end(),
                        [](const Vec4& color) { return color.a < 1.0f; });
 }

@@ -6,12 +6,10 @@
 
 namespace candela {
 
-enum class AlphaKnown : uint8_t { unknown, opaque, transparent };
-
 class OpacityScan {
   public:
-    // Looks at each picture once, and writes what it sees into world.image_alpha. before: a world of the same scene,
-    // or null.
+    // Looks at each picture once, unless its decoder has, and writes what it sees into world.image_alpha. before: a
+    // world of the same scene, or null.
     OpacityScan(World& world, const World* before);
 
     // Whether it may be transparent in this pose or another, in whichever of the file's variants: then switching needs
@@ -20,7 +18,7 @@ class OpacityScan {
 
   private:
     bool lets_light_through(MaterialId id, const Primitive& primitive);
-    bool texture_has_alpha(TextureId id);
+    bool texture_may_have_alpha(TextureId id);
 
     World& world_;
     std::vector<uint8_t> animated_, transmission_animated_;  // by material

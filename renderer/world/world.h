@@ -73,7 +73,7 @@ struct World {
     // this pose there are no surfaces.
     WorldShape fixed;
     std::vector<WorldShape> shapes;
-    std::vector<uint8_t> image_alpha;    // AlphaKnown of each image
+    std::vector<ImageAlpha> image_alpha;  // of each image, where it was looked at
     std::shared_ptr<const Accel> accel;  // its functions look at this world
     Bounds3 bounds;
     uint64_t triangle_count = 0;        // as placed
@@ -98,6 +98,13 @@ std::shared_ptr<const World> build_world(std::shared_ptr<const Scene> scene, con
 // looked for again. Throws AccelError.
 std::shared_ptr<const World> with_pose(const std::shared_ptr<const World>& world, std::shared_ptr<const Scene> posed,
                                        const BuildOptions& options = {});
+
+// The world of a scene whose pictures have come, from one that was built without them (without_pictures.h): nothing of
+// the geometry is built again, and what rays see is that of build_world to the bit. keep_environment: in place of
+// options.environment and the scene's. Throws AccelError.
+std::shared_ptr<const World> with_pictures(const std::shared_ptr<const World>& world,
+                                           std::shared_ptr<const Scene> scene, bool keep_environment,
+                                           const BuildOptions& options = {});
 
 // A world that shares everything with another but the environment; nothing of the geometry is built again.
 std::shared_ptr<const World> with_environment(const std::shared_ptr<const World>& world,
