@@ -34,7 +34,10 @@ ExitStatus run_screenshot(const RenderOptions& requested, bool with_interface) {
     try {
         const Vec2u extent = options.resolution.value_or(Vec2u(1280, 720));
         const OsmesaContext context(extent);
-        Viewer viewer(options, context, {with_interface, {}});
+        ViewerOptions viewer_options;
+        viewer_options.interface = with_interface;
+        viewer_options.previews = false;
+        Viewer viewer(options, context, viewer_options);
         while (!viewer.finished() && !InterruptGuard::interrupted()) {
             viewer.update();
             if (viewer.frame() != nullptr && first_frame_seconds == 0) first_frame_seconds = seconds_since_start();

@@ -32,6 +32,8 @@ class Display {
     // Uploads the frame unless its serial is that of the one uploaded last; returns whether it did. Throws GlError
     // where it exceeds the driver's texture size.
     bool upload(const Frame& frame);
+    // Forgets the frame uploaded last.
+    void clear() { extent_ = Vec2u(0); }
     // Clears the framebuffer and draws the frame uploaded last, if any, into its fit_rectangle.
     void draw(const DisplaySettings& settings);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/viewer/scene_loader.h"
 
+#include <utility>
+
 namespace candela {
 
 SceneLoader::~SceneLoader() {
@@ -21,6 +23,7 @@ void SceneLoader::start(Task task) {
     {
         const std::lock_guard lock(state_mutex_);
         state_ = {};
+        preview_.reset();
     }
     busy_ = true;
     thread_ = std::thread([this, run = std::move(task)] {
@@ -28,8 +31,12 @@ void SceneLoader::start(Task task) {
             const std::lock_guard lock(state_mutex_);
             state_ = {step, fraction};
         };
+        const ShowPreview show_preview = [this](LoadedScene preview) {
+            const std::lock_guard lock(state_mutex_);
+            preview_ = std::move(preview);
+        };
         try {
-            result_.scene = run(progress, &cancel_);
+            result_.scene = run(progress, show_preview, &cancel_);
         } catch (const CommandError& error) {
             result_.error = error.what();
             result_.status = error.status();
@@ -49,10 +56,17 @@ SceneLoader::State SceneLoader::state() const {
     return state_;
 }
 
+std::optional<LoadedScene> SceneLoader::take_preview() {
+    if (!busy_ || ready_.load(std::memory_order_acquire)) return std::nullopt;
+    const std::lock_guard lock(state_mutex_);
+    return std::exchange(preview_, std::nullopt);
+}
+
 std::optional<SceneLoader::Result> SceneLoader::take() {
     if (!busy_ || !ready_.load(std::memory_order_acquire)) return std::nullopt;
     thread_.join();
     busy_ = false;
+    preview_.reset();
     return std::move(result_);
 }
 

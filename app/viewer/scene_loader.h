@@ -18,8 +18,10 @@ struct LoadedScene {
 class SceneLoader {
   public:
     using Progress = std::function<void(const char* step, double fraction)>;
+    // What there is of the scene before all of it is there.
+    using ShowPreview = std::function<void(LoadedScene)>;
     // Runs on the loading thread; throws CommandError.
-    using Task = std::function<LoadedScene(const Progress&, const std::atomic<bool>* cancel)>;
+    using Task = std::function<LoadedScene(const Progress&, const ShowPreview&, const std::atomic<bool>* cancel)>;
 
     SceneLoader() = default;
     ~SceneLoader();  // cancels and joins
@@ -43,6 +45,8 @@ class SceneLoader {
     };
     // The result of the task, once; nothing while it runs.
     std::optional<Result> take();
+    // What the task shows before its end, once; nothing when the result is there already.
+    std::optional<LoadedScene> take_preview();
 
   private:
     void join();
@@ -53,6 +57,7 @@ class SceneLoader {
     Result result_;  // the loading thread's until ready_
     mutable std::mutex state_mutex_;
     State state_;
+    std::optional<LoadedScene> preview_;
 };
 
 }  // namespace candela

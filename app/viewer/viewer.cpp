@@ -88,8 +88,15 @@ void Viewer::start_load(RenderOptions options, bool keep_view) {
     load_error_.clear();
     model_.loading = true;
     model_.loading_name = file_name(options.scene);
-    loader_.start([options](const SceneLoader::Progress& progress, const std::atomic<bool>* cancel) {
-        return LoadedScene{options, prepare_render(options, progress, cancel)};
+    load_is_previewed_ = false;
+    // A scene that is read again looks better as it is than without its pictures.
+    const bool previews = viewer_options_.previews && !keep_view;
+    loader_.start([options, previews, prepare = viewer_options_.prepare](const SceneLoader::Progress& progress,
+                                                                         const SceneLoader::ShowPreview& show,
+                                                                         const std::atomic<bool>* cancel) {
+        std::function<void(RenderJob)> preview;
+        if (previews) preview = [&](RenderJob job) { show({options, std::move(job)}); };
+        return LoadedScene{options, prepare(options, progress, cancel, preview)};
     });
 }
 
@@ -106,6 +113,7 @@ void Viewer::start_environment_change() {
     environment_dirty_ = false;
     load_is_ = LoadKind::environment;
     loader_.start([options, job = model_.job, read = !read_from.empty()](const SceneLoader::Progress& progress,
+                                                                         const SceneLoader::ShowPreview&,
                                                                          const std::atomic<bool>*) {
         LoadedScene out{options, job};
         progress("environment", 0);
@@ -120,18 +128,58 @@ void Viewer::start_variant_change(std::optional<uint32_t> variant) {
     RenderOptions options = model_.options;
     const Scene& scene = *model_.job.world->scene;
     options.variant = variant ? scene.variant_names[*variant] : std::string();
+    // Of a scene that is not all there nothing could be kept.
+    if (before_preview_) {
+        start_load(options, true);
+        return;
+    }
     load_keeps_view_ = true;
     load_is_ = LoadKind::variant;
     environment_dirty_ = false;
     model_.loading = true;
     model_.loading_name = variant ? options.variant : "the file's own materials";
-    loader_.start(
-        [options, variant, job = model_.job](const SceneLoader::Progress& progress, const std::atomic<bool>* cancel) {
-            LoadedScene out{options, job};
-            progress("variant", 0);
-            show_variant(out.job, variant, cancel);
-            return out;
-        });
+    loader_.start([options, variant, job = model_.job](const SceneLoader::Progress& progress,
+                                                       const SceneLoader::ShowPreview&,
+                                                       const std::atomic<bool>* cancel) {
+        LoadedScene out{options, job};
+        progress("variant", 0);
+        show_variant(out.job, variant, cancel);
+        return out;
+    });
+}
+
+// A scene whose pictures are still to come is shown as the scene; what was before waits.
+void Viewer::take_preview() {
+    if (load_is_ != LoadKind::scene) return;
+    std::optional<LoadedScene> preview = loader_.take_preview();
+    if (!preview) return;
+    if (!before_preview_) {
+        before_preview_ = Shown{model_.options, model_.job,       model_.view, model_.playback,
+                                shown_pose_,    followed_camera_, next_camera_};
+    }
+    show_scene(std::move(*preview));
+    load_is_previewed_ = true;
+}
+
+void Viewer::bring_back() {
+    Shown shown = std::move(*before_preview_);
+    before_preview_.reset();
+    load_is_previewed_ = false;
+    model_.options = std::move(shown.options);
+    model_.job = std::move(shown.job);
+    model_.view = shown.view;
+    model_.playback = shown.playback;
+    shown_pose_ = shown.pose;
+    followed_camera_ = shown.followed_camera;
+    next_camera_ = shown.next_camera;
+    pose_epoch_ = 0;
+    dirty_ = true;
+    if (model_.has_scene()) return;
+    // There was nothing.
+    session_->stop();
+    frame_ = nullptr;
+    model_.status = {};
+    display_.clear();
 }
 
 void Viewer::take_loaded() {
@@ -148,6 +196,7 @@ void Viewer::take_loaded() {
             model_.playback.playing = false;
             shown_pose_ = making_pose_;
         }
+        if (before_preview_ && load_is_ == LoadKind::scene) bring_back();
         return;
     }
     RenderJob& job = result->scene->job;
@@ -161,9 +210,22 @@ void Viewer::take_loaded() {
         return;
     }
 
-    // A new scene: its camera unless the person's view is to stay. The pivot is what the middle of the picture shows.
-    model_.options = result->scene->options;
-    model_.job = std::move(job);
+    if (load_is_previewed_) {
+        // What the person has done since the preview stays.
+        model_.job = std::move(job);
+        dirty_ = true;
+    } else {
+        show_scene(std::move(*result->scene));
+    }
+    before_preview_.reset();
+    load_is_previewed_ = false;
+}
+
+// A new scene: its camera unless the person's view is to stay. The pivot is what the middle of the picture shows.
+void Viewer::show_scene(LoadedScene loaded) {
+    redraws_ = 2;
+    model_.options = std::move(loaded.options);
+    model_.job = std::move(loaded.job);
     if (!load_keeps_view_) {
         const Camera& camera = model_.job.request.view.camera;
         const World& world = *model_.job.world;
@@ -206,6 +268,8 @@ void Viewer::submit() {
     // A window goes on until the person has seen enough.
     const RenderOptions& options = model_.options;
     if (!options.spp && viewer_options_.interface) request.max_spp = std::numeric_limits<uint32_t>::max();
+    // A preview leaves the cores to the pictures that it waits for.
+    if (before_preview_) request.max_spp = 1;
     const uint64_t epoch = session_->submit(request);
     if (pose_epoch_ == 0) pose_epoch_ = epoch;
     if (hold_until_s_ < now_s()) hold_until_s_ = now_s() + first_frame_seconds;
@@ -229,6 +293,7 @@ void Viewer::take_frame() {
 
 bool Viewer::update() {
     tick();
+    take_preview();
     take_loaded();
     if (environment_dirty_ && !loader_.busy() && model_.has_scene()) start_environment_change();
     if (!loader_.busy() && pose_is_wanted()) start_pose();

@@ -12,6 +12,8 @@ namespace candela {
 struct ViewerOptions {
     bool interface = true;          // false: nothing but the picture is ever drawn
     std::function<double()> now_s;  // a clock; empty: the steady one
+    bool previews = true;           // a scene is shown without its pictures until they are decoded
+    std::function<decltype(prepare_render)> prepare = prepare_render;  // tests put their own here
 };
 
 class Viewer {
@@ -38,7 +40,8 @@ class Viewer {
     bool finished() const;
     std::string title() const;
 
-    // Opens a scene in the background; what is shown stays until then, and after a failure.
+    // Opens a scene in the background; what is shown stays until there is something of it to show, and comes back after
+    // a failure.
     void open(const std::string& path);
     // The same for one of validation_scenes(), under the sky that it wants.
     void open_validation_scene(size_t index);
@@ -54,13 +57,25 @@ class Viewer {
 
   private:
     enum class LoadKind : uint8_t { scene, environment, variant, pose };
+    // What a scene that cannot be read leaves as it was.
+    struct Shown {
+        RenderOptions options;
+        RenderJob job;
+        OrbitView view;
+        Playback playback, pose;
+        std::optional<uint32_t> followed_camera;
+        uint32_t next_camera = 0;
+    };
     enum class DragMode : uint8_t { none, orbit, pan, dolly, environment };
 
     RenderOptions options_for(const std::string& path) const;
     void start_load(RenderOptions options, bool keep_view);
     void start_environment_change();
     void start_variant_change(std::optional<uint32_t> variant);
+    void take_preview();
     void take_loaded();
+    void show_scene(LoadedScene loaded);
+    void bring_back();
     void take_environment(const LoadedScene& loaded);
     void submit();
     void take_frame();
@@ -114,6 +129,10 @@ class Viewer {
     SceneLoader loader_;
     LoadKind load_is_ = LoadKind::scene;
     bool load_keeps_view_ = false, environment_dirty_ = false;
+    // While a preview is shown: what was before it, without a world where nothing was; and whether it is of the load
+    // that runs.
+    std::optional<Shown> before_preview_;
+    bool load_is_previewed_ = false;
     std::string dropped_environment_;
     std::string load_error_;
     ExitStatus load_status_ = ExitStatus::done;

@@ -50,8 +50,8 @@ void Viewer::tick() {
 void Viewer::start_pose() {
     making_pose_ = {model_.playback.animation, wanted_pose_s(), false};
     load_is_ = LoadKind::pose;
-    loader_.start([options = model_.options, job = model_.job, pose = making_pose_](const SceneLoader::Progress&,
-                                                                                    const std::atomic<bool>* cancel) {
+    loader_.start([options = model_.options, job = model_.job, pose = making_pose_](
+                      const SceneLoader::Progress&, const SceneLoader::ShowPreview&, const std::atomic<bool>* cancel) {
         LoadedScene out{options, job};
         show_pose(out.job, options, *pose.animation, pose.time_s, cancel);
         return out;

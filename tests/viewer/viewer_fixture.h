@@ -25,8 +25,11 @@ class ViewerTest : public testing::Test {
   protected:
     void start(const RenderOptions& options) {
         context_ = std::make_unique<OsmesaContext>(extent);
-        viewer_ = std::make_unique<Viewer>(options, *context_, ViewerOptions{true, [this] { return now_s_; }});
-        finish();
+        ViewerOptions viewer_options;
+        viewer_options.now_s = [this] { return now_s_; };
+        if (prepare_) viewer_options.prepare = prepare_;
+        viewer_ = std::make_unique<Viewer>(options, *context_, viewer_options);
+        if (waits_) finish();
     }
     void TearDown() override { viewer_.reset(); }
 
@@ -68,6 +71,8 @@ class ViewerTest : public testing::Test {
     const ViewerModel& model() const { return viewer_->model(); }
 
     double now_s_ = 100;
+    std::function<decltype(prepare_render)> prepare_;  // in place of the viewer's own
+    bool waits_ = true;                                // start lets everything settle
     std::unique_ptr<OsmesaContext> context_;
     std::unique_ptr<Viewer> viewer_;
 };

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Images decode while the rest of the file is read: what is there when, and that nothing depends on who is faster.
+#include <set>
+
+#include "tests/io/document.h"
+
+namespace candela {
+namespace {
+
+using namespace test;
+
+class Overlap : public GltfTest {
+  protected:
+    void SetUp() override {
+        GltfTest::SetUp();
+        options_.decode_images = true;
+        for (int i = 0; i < image_count; ++i)
+            write_png(folder_ / name(i), ImageRgba8(160, 120, Rgba8(static_cast<uint8_t>(20 * i + 10))), false);
+    }
+    static constexpr int image_count = 4;
+    static std::string name(int i) { return std::string(1, static_cast<char>('a' + i)) + ".png"; }
+    // A triangle for each image.
+    Document document() const {
+        Document document = Document::triangle();
+        const int uv = document.add_accessor<float>({0, 0, 1, 0, 0, 1}, "VEC2", f32);
+        Json& primitives = document.json["meshes"][0]["primitives"];
+        primitives[0]["attributes"]["TEXCOORD_0"] = uv;
+        for (int i = 0; i < image_count; ++i) {
+            document.json["images"].push_back({{"uri", name(i)}});
+            document.json["textures"].push_back({{"source", i}});
+            document.json["materials"].push_back({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", i}}}}}});
+            if (i > 0) primitives.push_back(primitives[0]);
+            primitives[i]["material"] = i;
+        }
+        return document;
+    }
+    // The error, or which images there are, and the warnings.
+    std::string outcome(const std::filesystem::path& file) {
+        std::string out;
+        try {
+            const Scene scene = load_file(file);
+            for (const SceneImage& image : scene.images)
+                out += image.pixels->width() == 160 ? 'x' : '.';
+        } catch (const LoadError& error) {
+            return error.what();
+        }
+        for (const Diagnostic& warning : diagnostics_.warnings())
+            out += "\n" + warning.where + ": " + warning.message;
+        return out;
+    }
+};
+
+TEST_F(Overlap, ThePreviewHasAllButThePixels) {
+    int calls = 0;
+    options_.geometry_ready = [&](const Scene& scene) {
+        ++calls;
+        EXPECT_EQ(scene.meshes.size(), 1u);
+        EXPECT_EQ(scene.instances.size(), 1u);
+        EXPECT_EQ(scene.materials.size(), size_t{image_count});
+        for (const SceneImage& image : scene.images)
+            EXPECT_EQ(image.pixels, nullptr);
+    };
+    const Scene scene = load(document());
+    EXPECT_EQ(calls, 1);
+    for (size_t i = 0; i < scene.images.size(); ++i) {
+        EXPECT_EQ((*scene.images[i].pixels)(0, 0).r, 20 * i + 10);
+        EXPECT_EQ(scene.images[i].alpha, ImageAlpha::opaque);
+        ASSERT_NE(scene.images[i].smaller, nullptr);
+        EXPECT_EQ(scene.images[i].smaller->size(), 7u);
+    }
+
+    // A scene without pictures is there at once.
+    load(Document::triangle());
+    EXPECT_EQ(calls, 1);
+}
+
+TEST_F(Overlap, HeadsTellWhatIsOpaque) {
+    Document masked = document();
+    for (Json& material : masked.json["materials"])
+        material["alphaMode"] = "MASK";
+    write_png(folder_ / name(1), ImageRgba8(160, 120, Rgba8(255)), true);
+    options_.geometry_ready = [](const Scene& scene) {
+        EXPECT_EQ(scene.images[0].alpha, ImageAlpha::opaque);
+        EXPECT_EQ(scene.images[1].alpha, ImageAlpha::unknown);
+    };
+    const Scene scene = load(masked);
+    EXPECT_EQ(scene.images[1].alpha, ImageAlpha::opaque) << "all its texels are";
+}
+
+TEST_F(Overlap, WhatTheCallerThrowsEndsTheLoad) {
+    struct Stop {};
+    options_.geometry_ready = [](const Scene&) { throw Stop(); };
+    EXPECT_THROW(load(document()), Stop);
+}
+
+TEST_F(Overlap, BrokenImagesAreWarningsInTheOrderOfTheFile) {
+    write(name(1), "no picture");
+    std::filesystem::remove(folder_ / name(2));
+    options_.geometry_ready = [&](const Scene&) { EXPECT_TRUE(diagnostics_.warnings().empty()); };
+    const Scene scene = load(document());
+    ASSERT_EQ(diagnostics_.warnings().size(), 2u);
+    EXPECT_EQ(diagnostics_.warnings()[0].where, "/images/1");
+    EXPECT_EQ(diagnostics_.warnings()[1].where, "/images/2/uri");
+    EXPECT_EQ(scene.images[3].pixels->width(), 160);
+}
+
+// With ever more memory ever more of the file opens, in the same order, whoever is faster: first the meshes, then the
+// images as the file has them.
+TEST_F(Overlap, WhereMemoryRunsShortDependsOnTheFileAlone) {
+    Document source = document();
+    source.finish("data.bin");
+    write("data.bin", {source.bytes.begin(), source.bytes.end()});
+    const std::filesystem::path file = write("scene.gltf", source.json.dump());
+    std::set<std::string> seen;
+    size_t last = 0;
+    for (uint64_t limit = 50000; limit < 500000; limit += 7000) {
+        options_.max_memory_bytes = limit;
+        const std::string first = outcome(file);
+        for (int again = 0; again < 3; ++again)
+            ASSERT_EQ(outcome(file), first) << limit;
+        const std::string shown = first.substr(0, 4);
+        if (shown.find_first_not_of("x.") != std::string::npos) {
+            EXPECT_TRUE(seen.empty()) << first;
+            continue;
+        }
+        const auto count = static_cast<size_t>(std::count(shown.begin(), shown.end(), 'x'));
+        EXPECT_EQ(shown, std::string(count, 'x') + std::string(4 - count, '.'));
+        EXPECT_GE(count, last);
+        last = count;
+        seen.insert(shown);
+    }
+    EXPECT_EQ(seen.size(), 5u) << "none to all of the images";
+}
+
+}  // namespace
+}  // namespace candela
