@@ -4,6 +4,8 @@
 
 #include "renderer/integrator/aov.h"
 #include "renderer/integrator/integrator.h"
+#include "renderer/math/hash.h"
+#include "renderer/scene/color_mips.h"
 #include "tests/support/scenes.h"
 
 namespace candela {
@@ -47,6 +49,41 @@ View busy_view() {
     return view;
 }
 
+void expect_equal_samples(const World& world, const View& view, const IntegratorSettings& settings,
+                          const std::vector<PixelSample>& samples) {
+    RayCounts scalar_counts, batched_counts;
+    uint64_t segments = 0, shadow_rays = 0;
+    for (size_t first = 0; first < samples.size(); first += 97) {
+        const auto batch = std::span(samples).subspan(first, std::min<size_t>(97, samples.size() - first));
+        std::vector<RadianceSample> out(batch.size());
+        ASSERT_TRUE(trace_batch(world, view, settings, batch, out, batched_counts));
+        for (size_t i = 0; i < batch.size(); ++i) {
+            const RadianceSample expected = trace_sample(world, view, settings, batch[i], scalar_counts);
+            ASSERT_EQ(out[i].radiance, expected.radiance);
+            ASSERT_EQ(out[i].alpha, expected.alpha);
+            ASSERT_EQ(out[i].segments, expected.segments);
+            ASSERT_EQ(out[i].shadow_rays, expected.shadow_rays);
+            segments += out[i].segments;
+            shadow_rays += out[i].shadow_rays;
+        }
+    }
+    EXPECT_EQ(scalar_counts.camera, batched_counts.camera);
+    EXPECT_EQ(scalar_counts.bounce, batched_counts.bounce);
+    EXPECT_EQ(scalar_counts.shadow, batched_counts.shadow);
+    EXPECT_EQ(segments, batched_counts.camera + batched_counts.bounce) << "what the paths say of themselves";
+    EXPECT_EQ(shadow_rays, batched_counts.shadow);
+}
+
+// One sample of each pixel, of indices below `indices`.
+std::vector<PixelSample> samples_of(const View& view, uint32_t indices) {
+    std::vector<PixelSample> out;
+    for (uint32_t y = 0; y < view.extent.y; ++y) {
+        for (uint32_t x = 0; x < view.extent.x; ++x)
+            out.push_back({static_cast<uint16_t>(x), static_cast<uint16_t>(y), x % indices});
+    }
+    return out;
+}
+
 TEST(Drivers, BatchedEqualsScalarToTheBit) {
     const auto world = busy_world();
     const View view = busy_view();
@@ -55,35 +92,99 @@ TEST(Drivers, BatchedEqualsScalarToTheBit) {
             IntegratorSettings settings;
             settings.estimator = estimator;
             settings.sampler = sampler;
-            RayCounts scalar_counts, batched_counts;
-            uint64_t segments = 0, shadow_rays = 0;
-            std::vector<PixelSample> samples;
-            for (uint32_t y = 0; y < view.extent.y; ++y) {
-                for (uint32_t x = 0; x < view.extent.x; ++x) {
-                    samples.push_back({static_cast<uint16_t>(x), static_cast<uint16_t>(y), x % 5});
-                }
-            }
-            for (size_t first = 0; first < samples.size(); first += 97) {
-                const auto batch = std::span(samples).subspan(first, std::min<size_t>(97, samples.size() - first));
-                std::vector<RadianceSample> out(batch.size());
-                ASSERT_TRUE(trace_batch(*world, view, settings, batch, out, batched_counts));
-                for (size_t i = 0; i < batch.size(); ++i) {
-                    const RadianceSample expected = trace_sample(*world, view, settings, batch[i], scalar_counts);
-                    ASSERT_EQ(out[i].radiance, expected.radiance);
-                    ASSERT_EQ(out[i].alpha, expected.alpha);
-                    ASSERT_EQ(out[i].segments, expected.segments);
-                    ASSERT_EQ(out[i].shadow_rays, expected.shadow_rays);
-                    segments += out[i].segments;
-                    shadow_rays += out[i].shadow_rays;
-                }
-            }
-            EXPECT_EQ(scalar_counts.camera, batched_counts.camera);
-            EXPECT_EQ(scalar_counts.bounce, batched_counts.bounce);
-            EXPECT_EQ(scalar_counts.shadow, batched_counts.shadow);
-            EXPECT_EQ(segments, batched_counts.camera + batched_counts.bounce) << "what the paths say of themselves";
-            EXPECT_EQ(shadow_rays, batched_counts.shadow);
+            expect_equal_samples(*world, view, settings, samples_of(view, 5));
         }
     }
+}
+
+// Random texels, no two alike for long, so that any other level, filter or coordinate gives another colour.
+TextureId add_noise_texture(Scene& scene, int size, Texture sampler = {}) {
+    const auto number = static_cast<uint32_t>(scene.images.size());
+    ImageRgba8 image(size, size);
+    for (uint32_t i = 0; Rgba8 & texel : image.pixels()) {
+        const uint32_t hash = hash_combine(number, i++);
+        texel = Rgba8(hash, hash >> 8, hash >> 16, hash >> 24);
+    }
+    scene.images.emplace_back().pixels = std::make_shared<const ImageRgba8>(std::move(image));
+    sampler.image = {number};
+    scene.textures.push_back(sampler);
+    return {static_cast<uint32_t>(scene.textures.size() - 1)};
+}
+
+// Every use of a texture: a floor to the horizon, mapped metal with leaning normals, a cut-out and a blended card, a
+// textured lamp, tinted glass, and a mirrored copy in an instance.
+std::shared_ptr<const World> textured_world() {
+    Scene scene;
+    const auto with_texture = [&](MaterialId id, TextureRef Material::*use, TextureId texture) {
+        (scene.materials[id.value].*use).texture = texture;
+        return id;
+    };
+    const MaterialId floor =
+        with_texture(test::add_lambert(scene, Vec3(0.8f)), &Material::base_color, add_noise_texture(scene, 64));
+    scene.materials[floor.value].base_color.uv_transform = {30, 4, -4, 30, 0.3f, 0.7f};
+    test::add_object(scene, test::make_quad(Vec3(-50, 0, 50), Vec3(100, 0, 0), Vec3(0, 0, -100)), floor);
+
+    Texture mirrored;
+    mirrored.wrap_u = WrapMode::mirrored_repeat;
+    mirrored.wrap_v = WrapMode::clamp_to_edge;
+    mirrored.mip_filter = MipFilter::nearest;
+    Material metal;
+    metal.base_color.texture = add_noise_texture(scene, 256, mirrored);
+    metal.base_color.uv_transform = {3, 0, 0, 3, -1, -1};
+    metal.metallic_roughness.texture = add_noise_texture(scene, 32);
+    metal.normal.texture = add_noise_texture(scene, 16);
+    metal.normal_scale = 0.3f;
+    scene.materials.push_back(metal);
+    test::add_object(scene, test::make_sphere(Vec3(0), 0.6f, 32, 16),
+                     {static_cast<uint32_t>(scene.materials.size() - 1)},
+                     glm::translate(Mat4(1), Vec3(-0.8f, 0.6f, 0)));
+    scene.instances.push_back({scene.instances.back().mesh, scene.instances.back().node,
+                               glm::translate(Mat4(1), Vec3(0.9f, 0.6f, 0.3f)) * glm::scale(Mat4(1), Vec3(1, -1, 1))});
+
+    Texture blocky;
+    blocky.mag_filter = blocky.min_filter = TextureFilter::nearest;
+    for (const AlphaMode mode : {AlphaMode::mask, AlphaMode::blend}) {
+        const MaterialId card = with_texture(test::add_lambert(scene, Vec3(0.9f)), &Material::base_color,
+                                             add_noise_texture(scene, 128, blocky));
+        scene.materials[card.value].alpha_mode = mode;
+        const float x = mode == AlphaMode::mask ? -1.5f : 0.5f;
+        test::add_object(scene, test::make_quad(Vec3(x, 0.4f, 1), Vec3(1, 0, 0), Vec3(0, 1, 0)), card);
+    }
+    const MaterialId lamp =
+        with_texture(test::add_emitter(scene, Vec3(6, 5, 4)), &Material::emissive, add_noise_texture(scene, 64));
+    test::add_object(scene, test::make_quad(Vec3(-1, 3, -1), Vec3(2, 0, 0), Vec3(0, 0, 2)), lamp);
+    Material glass;
+    glass.metallic_factor = 0;
+    glass.roughness_factor = 0.1f;
+    glass.transmission.factor = 1;
+    glass.transmission.texture.texture = glass.base_color.texture = add_noise_texture(scene, 64);
+    glass.volume.thickness_factor = 1;
+    scene.materials.push_back(glass);
+    test::add_object(scene, test::make_sphere(Vec3(0, 0.4f, 1.4f), 0.4f, 24, 12),
+                     {static_cast<uint32_t>(scene.materials.size() - 1)});
+    scene.environment = test::constant_environment(Vec3(0.2f, 0.3f, 0.4f));
+    make_color_mips(scene);
+    return test::build(std::move(scene));
+}
+
+TEST(Drivers, BatchedEqualsScalarToTheBitWithFilteredTextures) {
+    const auto world = textured_world();
+    const View view = busy_view();
+    const std::vector<PixelSample> samples = samples_of(view, 7);
+    int filtered_otherwise = 0;
+    for (const bool filters : {true, false}) {
+        IntegratorSettings settings;
+        settings.filter_textures = filters;
+        expect_equal_samples(*world, view, settings, samples);
+    }
+    IntegratorSettings filtered, level_0;
+    level_0.filter_textures = false;
+    RayCounts counts;
+    for (const PixelSample& sample : samples) {
+        filtered_otherwise += trace_sample(*world, view, filtered, sample, counts).radiance !=
+                              trace_sample(*world, view, level_0, sample, counts).radiance;
+    }
+    EXPECT_GT(filtered_otherwise, static_cast<int>(samples.size() / 3)) << "smaller levels are looked at";
 }
 
 TEST(Drivers, CancelledBatchSaysSo) {
