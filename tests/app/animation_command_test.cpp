@@ -20,7 +20,6 @@ using test::run;
 class AnimationCommand : public test::CommandLine {
   protected:
     void SetUp() override {
-        CommandLine::SetUp();
         const std::vector<float> numbers = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0,  // positions
                                             0,  1,                                                       // times
                                             0,  0,  0, 9, 0,  0,                                         // slide

@@ -29,7 +29,6 @@ double cpu_seconds_of_programs() {
 class HostileFiles : public CommandLine {
   protected:
     void SetUp() override {
-        CommandLine::SetUp();
         std::ofstream(folder_ / "empty");
         std::ofstream(folder_ / "hole") << "glTF";
         std::filesystem::resize_file(folder_ / "hole", uint64_t{1} << 40);

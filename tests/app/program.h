@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <string>
 
+#include "tests/support/temporary_folder.h"
+
 namespace candela::test {
 
 struct Outcome {
@@ -30,15 +32,9 @@ inline Outcome run(const std::string& arguments, const std::string& before = "")
 
 class CommandLine : public ::testing::Test {
   protected:
-    void SetUp() override {
-        folder_ = std::filesystem::temp_directory_path() /
-                  ("candela cli " + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
     std::string file(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
-    std::filesystem::path folder_;
+    const TemporaryFolder own_folder_{"candela cli"};
+    const std::filesystem::path folder_ = own_folder_.path();
 };
 
 }  // namespace candela::test

@@ -7,19 +7,15 @@
 #include "renderer/image/codec.h"
 #include "renderer/image/exr_header.h"
 #include "tests/support/shared_data.h"
+#include "tests/support/temporary_folder.h"
 
 namespace candela {
 namespace {
 
 class Codec : public ::testing::Test {
   protected:
-    void SetUp() override {
-        folder_ = std::filesystem::temp_directory_path() /
-                  ("candela_codec_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-    std::filesystem::path folder_;
+    const test::TemporaryFolder own_folder_{"candela_codec"};
+    const std::filesystem::path folder_ = own_folder_.path();
 };
 
 ImageRgba32f gradient(int width, int height) {

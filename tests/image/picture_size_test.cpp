@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "renderer/image/codec.h"
+#include "tests/support/temporary_folder.h"
 
 namespace candela {
 namespace {
@@ -15,11 +16,11 @@ std::optional<PictureSize> size_of(const std::vector<unsigned char>& bytes) {
 }
 
 TEST(PictureSize, OfAPngAsItIsWritten) {
-    const auto file = std::filesystem::temp_directory_path() / "candela picture size.png";
+    const test::TemporaryFolder folder;
+    const auto file = folder.path() / "picture.png";
     write_png(file, ImageRgba8(37, 21, Rgba8{1, 2, 3, 255}), false);
     std::ifstream stream(file, std::ios::binary);
     const std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(stream), {}};
-    std::filesystem::remove(file);
     const auto size = size_of(bytes);
     ASSERT_TRUE(size);
     EXPECT_EQ(size->width, 37u);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "renderer/io/load_gltf.h"
+#include "tests/support/temporary_folder.h"
 
 namespace candela::test {
 
@@ -92,15 +93,7 @@ inline std::string glb_bytes(std::string text, std::string bin) {
 
 class GltfTest : public ::testing::Test {
   protected:
-    void SetUp() override {
-        const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = std::filesystem::temp_directory_path() /
-                  ("candela_io_" + std::string(test->test_suite_name()) + "_" + test->name());
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_);
-        options_.decode_images = false;
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
+    void SetUp() override { options_.decode_images = false; }
 
     std::filesystem::path write(const std::string& name, const std::string& text) const {
         // A new file each time: overwriting one makes some file systems wait for the disk.
@@ -151,7 +144,8 @@ class GltfTest : public ::testing::Test {
     }
     static const Primitive& first(const Scene& scene) { return scene.meshes.at(0)->primitives.at(0); }
 
-    std::filesystem::path folder_;
+    const TemporaryFolder own_folder_{"candela_io"};
+    const std::filesystem::path folder_ = own_folder_.path();
     Diagnostics diagnostics_;
     LoadOptions options_;
 };

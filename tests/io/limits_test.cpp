@@ -139,11 +139,9 @@ TEST_F(ImageLimits, Sides) {
 
 // Of two pictures of 4800 bytes the second no longer fits.
 TEST(ImageMemory, IsThatOfAllPicturesTogether) {
-    const auto folder = std::filesystem::temp_directory_path() / "candela_image_memory";
-    std::filesystem::create_directories(folder);
-    write_png(folder / "a.png", ImageRgba8(40, 30, Rgba8(9)), false);
-    const std::vector<std::byte> png = read_file(folder / "a.png");
-    std::filesystem::remove_all(folder);
+    const TemporaryFolder folder;
+    write_png(folder.path() / "a.png", ImageRgba8(40, 30, Rgba8(9)), false);
+    const std::vector<std::byte> png = read_file(folder.path() / "a.png");
     const std::span<const std::byte> both[] = {png, png};
     ImageDecodeOptions options;
     options.threads = 1;

@@ -3,19 +3,13 @@
 #include <fstream>
 
 #include "renderer/io/load_gltf.h"
+#include "tests/support/temporary_folder.h"
 
 namespace candela {
 namespace {
 
 class LoadGltf : public ::testing::Test {
   protected:
-    void SetUp() override {
-        folder_ = std::filesystem::temp_directory_path() /
-                  ("candela_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     Scene load(const std::string& json, LoadOptions options = {}) {
         const auto path = folder_ / "scene.gltf";
         std::ofstream(path) << json;
@@ -31,7 +25,8 @@ class LoadGltf : public ::testing::Test {
         return "loaded";
     }
 
-    std::filesystem::path folder_;
+    const test::TemporaryFolder own_folder_{"candela_load"};
+    const std::filesystem::path folder_ = own_folder_.path();
     Diagnostics diagnostics_;
 };
 

@@ -35,8 +35,7 @@ class RawGltf {
             }
             const std::string uri = buffer["uri"];
             const bool is_data = uri.compare(0, 5, "data:") == 0;
-            buffers_.push_back(is_data ? from_base64(uri.substr(uri.find(',') + 1))
-                                       : contents(file.parent_path() / uri));
+            buffers_.push_back(is_data ? from_data_uri(uri) : contents(file.parent_path() / uri));
         }
     }
 
@@ -82,13 +81,25 @@ class RawGltf {
         return out;
     }
 
-    Json json;
+    // All bytes of each buffer.
+    const std::vector<std::string>& buffers() const { return buffers_; }
 
-  private:
     static std::string contents(const std::filesystem::path& file) {
         std::ifstream stream(file, std::ios::binary);
         return {std::istreambuf_iterator<char>(stream), {}};
     }
+    // The bytes of a "data:" URI.
+    static std::string from_data_uri(const std::string& uri) { return from_base64(uri.substr(uri.find(',') + 1)); }
+
+    static size_t components_of(const std::string& type) {
+        if (type == "MAT4") return 16;
+        return type == "SCALAR" ? 1 : static_cast<size_t>(type.back() - '0');
+    }
+    static size_t size_of(int type) { return type <= 5121 ? 1 : type <= 5123 ? 2 : 4; }
+
+    Json json;
+
+  private:
     static std::string from_base64(const std::string& text) {
         const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
         std::string out;
@@ -105,11 +116,6 @@ class RawGltf {
         }
         return out;
     }
-    static size_t components_of(const std::string& type) {
-        if (type == "MAT4") return 16;
-        return type == "SCALAR" ? 1 : static_cast<size_t>(type.back() - '0');
-    }
-    static size_t size_of(int type) { return type <= 5121 ? 1 : type <= 5123 ? 2 : 4; }
     template <typename T>
     static double load(const char* from, bool normalized) {
         T value;
