@@ -85,9 +85,18 @@ FrameRange parse_frames(const std::string& text) {
     return out;
 }
 
+// "albedo,normal"
+std::vector<std::string> parse_list(const std::string& text) {
+    std::vector<std::string> out;
+    std::stringstream list(text);
+    for (std::string name; std::getline(list, name, ',');)
+        out.push_back(name);
+    return out;
+}
+
 // Options as text, turned into values once CLI11 has read them.
 struct RawRenderOptions {
-    std::string resolution, eye, target, up, sky, background, aov, frames;
+    std::string resolution, eye, target, up, sky, background, aov, frames, open;
 };
 
 void add_render_options(CLI::App& command, RenderOptions& options, RawRenderOptions& raw) {
@@ -171,12 +180,27 @@ void add_render_options(CLI::App& command, RenderOptions& options, RawRenderOpti
         ->type_name("SECONDS");
     command
         .add_option("--aov", raw.aov,
-                    "extra .exr layers: albedo,normal,depth,position,uv,material,instance,samples,variance")
+                    "extra .exr layers: albedo,normal,depth,position,uv,material,instance,samples,variance,"
+                    "error,rays,bounces")
         ->type_name("LIST");
     command.add_option("--stats", options.stats_file, "JSON record of the run; - = standard output")->type_name("FILE");
     command.add_flag("--quiet", options.quiet, "no progress");
     command.add_flag("-v", options.verbose, "more detail");
     add_limit_options(command, options.limits);
+}
+
+// What only the window and its pictures show.
+void add_viewer_options(CLI::App& command, RenderOptions& options) {
+    const std::map<std::string, PixelMap> maps{{"error", PixelMap::error},
+                                               {"samples", PixelMap::samples},
+                                               {"rays", PixelMap::rays},
+                                               {"bounces", PixelMap::bounces}};
+    command
+        .add_option("--map", options.map, "beside the picture, as colours: error, samples, rays or bounces of a pixel")
+        ->transform(CLI::CheckedTransformer(maps));
+    command.add_option("--wipe", options.wipe, "where the map begins: 0 at the left edge, 1 at the right (0.5)")
+        ->check(CLI::Range(0.0f, 1.0f))
+        ->type_name("X");
 }
 
 void finish_render_options(const RawRenderOptions& raw, RenderOptions& options) {
@@ -196,9 +220,12 @@ void finish_render_options(const RawRenderOptions& raw, RenderOptions& options) 
         options.integrator.background = BackgroundKind::color;
         options.integrator.background_color = parse_vec3("--background", raw.background);
     }
-    std::stringstream list(raw.aov);
-    for (std::string name; std::getline(list, name, ',');)
-        options.aovs.push_back(name);
+    options.aovs = parse_list(raw.aov);
+    options.open = parse_list(raw.open);
+    for (const std::string& name : options.open) {
+        if (name != "panels" && name != "statistics" && name != "help")
+            throw usage("--open " + name + ": is none of panels,statistics,help");
+    }
 }
 
 // What only the window and its pictures refuse.
@@ -224,11 +251,15 @@ ExitStatus dispatch(int argc, char** argv) {
     add_render_options(app, render, raw);
     CLI::App* view_command = app.add_subcommand("view", "open the window (also without a command)");
     add_render_options(*view_command, render, raw);
+    for (CLI::App* command : {&app, view_command})
+        add_viewer_options(*command, render);
 
     bool with_interface = true;
     CLI::App* screenshot_command = app.add_subcommand("screenshot", "the viewer's own picture, drawn off-screen");
     add_render_options(*screenshot_command, render, raw);
     screenshot_command->add_option("-o,--output", render.output, "ends in .png")->required()->type_name("OUT.png");
+    add_viewer_options(*screenshot_command, render);
+    screenshot_command->add_option("--open", raw.open, "panels to show: panels,statistics,help")->type_name("LIST");
     screenshot_command->add_flag("--ui,!--no-ui", with_interface, "with its panels, or only the picture");
 
     CLI::App* render_command = app.add_subcommand("render", "render without a display");

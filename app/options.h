@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/film/frame.h"
 #include "renderer/image/tone.h"
 #include "renderer/integrator/settings.h"
 #include "renderer/io/load_gltf.h"
@@ -47,7 +48,10 @@ struct RenderOptions {
     std::optional<FrameRange> frames;  // pictures of the animation, numbered
     double fps = 30;                   // picture k shows the time k / fps
     std::vector<std::string> aovs;
-    std::string stats_file;  // "-": standard output
+    std::optional<PixelMap> map;    // beside the picture, in the window
+    float wipe = 0.5f;              // where it begins: 0 at the left edge, 1 at the right
+    std::vector<std::string> open;  // panels of a screenshot
+    std::string stats_file;         // "-": standard output
     std::string output;
     bool quiet = false;
     bool verbose = false;

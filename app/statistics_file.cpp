@@ -52,8 +52,9 @@ std::string statistics_json(const RunRecord& record) {
     // JSON has no NaN: an unknown error is null.
     if (std::isfinite(film.relative_error)) {
         out["relative_error"] = film.relative_error;
+        out["relative_error_95"] = film.relative_error_95;
     } else {
-        out["relative_error"] = nullptr;
+        out["relative_error"] = out["relative_error_95"] = nullptr;
     }
     out["non_finite"] = film.non_finite;
     out["biased"] = request.settings.biased();

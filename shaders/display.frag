@@ -1,15 +1,29 @@
 // SPDX-License-Identifier: MIT
-// From linear premultiplied radiance to what the screen shows.
+// From linear premultiplied radiance to what the screen shows; to the right of the wipe a map of numbers as colours.
 
 uniform sampler2D frame;
 uniform int curve;               // the order of candela::ToneCurve
 uniform float radiance_scale;    // 2^exposure_ev
 uniform bool show_checkerboard;  // under pixels that are not opaque; else alpha is handed on
 
+uniform sampler2D maps;
+uniform int map_channel;  // the order of candela::PixelMap; -1: none
+uniform float map_low, map_high;
+uniform bool map_logarithmic;
+uniform float wipe;  // 0 at the picture's left edge, 1 at its right
+
 in vec2 uv;
 out vec4 pixel;
 
 void main() {
+    if (map_channel >= 0 && uv.x >= wipe) {
+        float value = texture(maps, uv)[map_channel];
+        // Grey is what is not known yet.
+        vec3 heat = value < 0.0 ? vec3(0.25) : heat_color(heat_position(value, map_low, map_high, map_logarithmic));
+        pixel = vec4(heat, 1.0);
+        return;
+    }
+
     // Undo the premultiplication, apply exposure and curve.
     vec4 premultiplied = texture(frame, uv);
     vec3 straight = premultiplied.a > 0.0 ? premultiplied.rgb / premultiplied.a : vec3(0.0);

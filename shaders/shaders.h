@@ -6,7 +6,8 @@
 namespace candela::shaders {
 
 extern const char* const display_vert;
-extern const char* const display_frag;  // needs tone_glsl before it
+extern const char* const display_frag;  // needs heat_glsl and tone_glsl before it
+extern const char* const heat_glsl;
 extern const char* const tone_glsl;
 extern const char* const ui_vert;
 extern const char* const ui_frag;

@@ -29,13 +29,15 @@ void check_options(const RenderOptions& options) {
     if (!options.aovs.empty() && extension != ".exr") {
         throw CommandError(ExitStatus::wrong_usage, options.output + ": --aov needs an .exr output");
     }
-    constexpr std::string_view known[] = {"albedo",   "normal",   "depth",   "position", "uv",
-                                          "material", "instance", "samples", "variance"};
+    constexpr std::string_view known[] = {"albedo",   "normal",  "depth",    "position", "uv",   "material",
+                                          "instance", "samples", "variance", "error",    "rays", "bounces"};
     for (const std::string& name : options.aovs) {
         if (std::find(std::begin(known), std::end(known), name) == std::end(known)) {
             throw CommandError(
                 ExitStatus::wrong_usage,
-                "--aov " + name + ": is none of albedo,normal,depth,position,uv,material,instance,samples,variance");
+                "--aov " + name +
+                    ": is none of "
+                    "albedo,normal,depth,position,uv,material,instance,samples,variance,error,rays,bounces");
         }
     }
     check_output(options.output);
@@ -49,7 +51,8 @@ ExrLayer make_layer(const std::string& name, const std::vector<std::string>& cha
 }
 
 // Layers of the first surface through each pixel's centre, and of the film.
-std::vector<ExrLayer> make_layers(const RenderOptions& options, const RenderRequest& request, const Film& film) {
+std::vector<ExrLayer> make_layers(const RenderOptions& options, const RenderRequest& request, const Film& film,
+                                  double mean_luminance) {
     const std::map<std::string, std::vector<std::string>> channels{
         {"albedo", {"R", "G", "B"}}, {"normal", {"X", "Y", "Z"}}, {"position", {"X", "Y", "Z"}}, {"uv", {"U", "V"}}};
     const Vec2u extent = request.view.extent;
@@ -60,10 +63,14 @@ std::vector<ExrLayer> make_layers(const RenderOptions& options, const RenderRequ
             make_layer(name, found != channels.end() ? found->second : std::vector<std::string>{"V"}, extent));
     }
     const std::vector<float> error = standard_error_map(film);
+    Frame maps;
+    maps.maps = ImageRgba32f(static_cast<int>(extent.x), static_cast<int>(extent.y));
+    map_rows(film, mean_luminance, 0, extent.y, maps);
     for (uint32_t y = 0; y < extent.y; ++y) {
         for (uint32_t x = 0; x < extent.x; ++x) {
             const FirstHit hit = trace_first_hit(*request.world, request.view, (Vec2(x, y) + 0.5f) / Vec2(extent));
             const float standard_error = error[size_t{y} * extent.x + x];
+            const Vec4& map = maps.maps(static_cast<int>(x), static_cast<int>(y));
             const auto index = [](uint32_t i) { return i == invalid_index ? -1.0f : static_cast<float>(i); };
             for (ExrLayer& layer : layers) {
                 const std::string& n = layer.name;
@@ -77,6 +84,9 @@ std::vector<ExrLayer> make_layers(const RenderOptions& options, const RenderRequ
                 if (n == "instance") value.x = index(hit.instance);
                 if (n == "samples") value.x = static_cast<float>(film.at({x, y}).count);
                 if (n == "variance") value.x = standard_error * standard_error;
+                if (n == "error") value.x = map[static_cast<int>(PixelMap::error)];
+                if (n == "rays") value.x = map[static_cast<int>(PixelMap::rays)];
+                if (n == "bounces") value.x = map[static_cast<int>(PixelMap::bounces)];
                 for (size_t c = 0; c < layer.channels.size(); ++c) {
                     layer.channels[c](static_cast<int>(x), static_cast<int>(y)) = value[static_cast<int>(c)];
                 }
@@ -88,7 +98,9 @@ std::vector<ExrLayer> make_layers(const RenderOptions& options, const RenderRequ
 
 void write_picture(const RenderOptions& options, const RenderJob& job, const Frame& frame, RenderSession& session) {
     std::vector<ExrLayer> layers;
-    if (!options.aovs.empty()) layers = make_layers(options, job.request, session.snapshot_film());
+    if (!options.aovs.empty()) {
+        layers = make_layers(options, job.request, session.snapshot_film(), frame.statistics.mean_luminance);
+    }
     save_picture(options.output, frame, options.tone, job.request.settings,
                  picture_header(options.command, job.request), layers);
 }
@@ -175,7 +187,10 @@ void Pictures::render(const RenderJob& job, const std::string& path, const std::
     if (!options_.quiet && options_.stats_file != "-") {
         fmt::print("{}: {}x{}, {:.4g} spp in {:.2f} s, estimated error {}{}\n", path, frame_->image.width(),
                    frame_->image.height(), film.mean_samples, status.render_seconds,
-                   std::isfinite(film.relative_error) ? fmt::format("{:.2f} %", 100 * film.relative_error) : "unknown",
+                   std::isfinite(film.relative_error)
+                       ? fmt::format("{:.2f} % (95 % of pixels within {:.2f} %)", 100 * film.relative_error,
+                                     100 * film.relative_error_95)
+                       : "unknown",
                    job.request.settings.biased() ? ", biased" : "");
         std::fflush(stdout);
     }

@@ -20,42 +20,49 @@ FitRectangle fit_rectangle(Vec2u picture, Vec2u framebuffer) {
 }
 
 Display::Display(const GlContext& context)
-    : context_(context), program_(context.gl(), {shaders::display_vert}, {shaders::tone_glsl, shaders::display_frag}) {
+    : context_(context),
+      program_(context.gl(), {shaders::display_vert}, {shaders::tone_glsl, shaders::heat_glsl, shaders::display_frag}) {
     const GlFunctions& gl = context_.gl();
     gl.GenVertexArrays(1, &vertex_array_);
-    gl.GenTextures(1, &texture_);
-    gl.BindTexture(GL_TEXTURE_2D, texture_);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    for (GLuint* texture : {&texture_, &maps_texture_}) {
+        gl.GenTextures(1, texture);
+        gl.BindTexture(GL_TEXTURE_2D, *texture);
+        gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    }
 }
 
 Display::~Display() {
     context_.gl().DeleteTextures(1, &texture_);
+    context_.gl().DeleteTextures(1, &maps_texture_);
     context_.gl().DeleteVertexArrays(1, &vertex_array_);
 }
 
-bool Display::upload(const Frame& frame) {
-    const Vec2u extent(frame.image.width(), frame.image.height());
-    if (extent == extent_ && frame.serial == serial_) return false;
+Vec2u Display::upload_image(const ImageRgba32f& image, GLuint texture, Vec2u extent) const {
     const GlFunctions& gl = context_.gl();
-    gl.BindTexture(GL_TEXTURE_2D, texture_);
+    gl.BindTexture(GL_TEXTURE_2D, texture);
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    if (extent == extent_) {
-        gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, frame.image.width(), frame.image.height(), GL_RGBA, GL_FLOAT,
-                         frame.image.data());
-    } else {
-        GLint largest = 0;
-        gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-        if (frame.image.width() > largest || frame.image.height() > largest) {
-            throw GlError(fmt::format(
-                "the OpenGL driver shows at most {0}x{0} pixels; ask for a smaller --resolution, or use candela render",
-                largest));
-        }
-        gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, frame.image.width(), frame.image.height(), 0, GL_RGBA, GL_FLOAT,
-                      frame.image.data());
+    if (extent == Vec2u(image.width(), image.height())) {
+        gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image.width(), image.height(), GL_RGBA, GL_FLOAT, image.data());
+        return extent;
     }
-    extent_ = extent;
+    GLint largest = 0;
+    gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    if (image.width() > largest || image.height() > largest) {
+        throw GlError(fmt::format(
+            "the OpenGL driver shows at most {0}x{0} pixels; ask for a smaller --resolution, or use candela render",
+            largest));
+    }
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, image.width(), image.height(), 0, GL_RGBA, GL_FLOAT, image.data());
+    return {image.width(), image.height()};
+}
+
+bool Display::upload(const Frame& frame) {
+    if (Vec2u(frame.image.width(), frame.image.height()) == extent_ && frame.serial == serial_) return false;
+    extent_ = upload_image(frame.image, texture_, extent_);
+    has_maps_ = frame.maps.size() > 0;
+    if (has_maps_) maps_extent_ = upload_image(frame.maps, maps_texture_, maps_extent_);
     serial_ = frame.serial;
     return true;
 }
@@ -74,11 +81,23 @@ void Display::draw(const DisplaySettings& settings) {
     const FitRectangle fit = fit_rectangle(extent_, framebuffer);
     const bool exact = fit.width == static_cast<int>(extent_.x) && fit.height == static_cast<int>(extent_.y);
     gl.Viewport(fit.x, fit.y, fit.width, fit.height);
-    gl.ActiveTexture(GL_TEXTURE0);
-    gl.BindTexture(GL_TEXTURE_2D, texture_);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, exact ? GL_NEAREST : GL_LINEAR);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, exact ? GL_NEAREST : GL_LINEAR);
+    const auto bind = [&](GLenum unit, GLuint texture, GLint filter) {
+        gl.ActiveTexture(unit);
+        gl.BindTexture(GL_TEXTURE_2D, texture);
+        gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+        gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+    };
+    const bool map_shown = settings.map.has_value() && has_maps_;
+    if (map_shown) bind(GL_TEXTURE1, maps_texture_, GL_NEAREST);
+    bind(GL_TEXTURE0, texture_, exact ? GL_NEAREST : GL_LINEAR);
     program_.use();
+    const DisplayedMap map = settings.map.value_or(DisplayedMap{});
+    gl.Uniform1i(program_.uniform("maps"), 1);
+    gl.Uniform1i(program_.uniform("map_channel"), map_shown ? static_cast<int>(map.map) : -1);
+    gl.Uniform1f(program_.uniform("map_low"), map.scale.low);
+    gl.Uniform1f(program_.uniform("map_high"), map.scale.high);
+    gl.Uniform1i(program_.uniform("map_logarithmic"), map.scale.logarithmic ? 1 : 0);
+    gl.Uniform1f(program_.uniform("wipe"), map.wipe);
     gl.Uniform1i(program_.uniform("frame"), 0);
     gl.Uniform1i(program_.uniform("curve"), static_cast<int>(settings.tone.curve));
     gl.Uniform1f(program_.uniform("radiance_scale"), std::exp2(settings.tone.exposure_ev));

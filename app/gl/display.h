@@ -1,18 +1,29 @@
 // SPDX-License-Identifier: MIT
-// Draws a frame: linear radiance as a float texture, exposure and tone curve in the shader. The same for the window and
-// for off-screen pictures.
+// Draws a frame: linear radiance as a float texture, exposure and tone curve in the shader; beside it one of the
+// frame's maps. The same for the window and for off-screen pictures.
 #pragma once
+
+#include <optional>
 
 #include "app/gl/gl_context.h"
 #include "app/gl/gl_program.h"
 #include "renderer/film/frame.h"
+#include "renderer/image/heat.h"
 #include "renderer/image/tone.h"
 
 namespace candela {
 
+// A map in heat colours, to the right of the wipe.
+struct DisplayedMap {
+    PixelMap map = PixelMap::error;
+    HeatScale scale;
+    float wipe = 0;  // 0 at the picture's left edge, 1 at its right
+};
+
 struct DisplaySettings {
     ToneSettings tone;
     bool checkerboard = true;  // under pixels that are not opaque; else their alpha goes to the framebuffer
+    std::optional<DisplayedMap> map = std::nullopt;  // drawn where the frame came with maps
 };
 
 // A picture of that extent as large as it fits in the middle of the framebuffer; pixels, from the bottom left.
@@ -38,11 +49,15 @@ class Display {
     void draw(const DisplaySettings& settings);
 
   private:
+    // Returns the texture's new extent.
+    Vec2u upload_image(const ImageRgba32f& image, GLuint texture, Vec2u extent) const;
+
     const GlContext& context_;
     GlProgram program_;
-    GLuint texture_ = 0, vertex_array_ = 0;
-    Vec2u extent_{0};
+    GLuint texture_ = 0, maps_texture_ = 0, vertex_array_ = 0;
+    Vec2u extent_{0}, maps_extent_{0};
     uint64_t serial_ = 0;
+    bool has_maps_ = false;
 };
 
 }  // namespace candela

@@ -35,15 +35,16 @@ void text(const std::string& line) {
 class Line {
   public:
     explicit Line(float right_end) : right_end_(right_end) {}
-    // Left out where it would not fit.
-    void item(const std::string& words, const ImVec4* color = nullptr) {
+    // Left out where it would not fit, or would leave less than that much room; returns whether it is there.
+    bool item(const std::string& words, const ImVec4* color = nullptr, float room = 0) {
         const float width = ImGui::CalcTextSize(words.c_str()).x;
-        if (x_ + width > right_end_) return;
+        if (x_ + width + room > right_end_) return false;
         ImGui::SameLine(x_);
         if (color != nullptr) ImGui::PushStyleColor(ImGuiCol_Text, *color);
         text(words);
         if (color != nullptr) ImGui::PopStyleColor();
         x_ += width + 1.6f * unit();
+        return true;
     }
     void start(float x) { x_ = x; }
 
@@ -57,6 +58,15 @@ const char* state_words(const ViewerModel& model) {
 }
 
 }  // namespace
+
+std::optional<double> asked_error(const ViewerModel& model) {
+    if (!model.options.until_error_percent) return std::nullopt;
+    return *model.options.until_error_percent / 100;
+}
+
+ErrorWords words_of(const ViewerModel& model) {
+    return error_words(model.film, model.history, asked_error(model), !model.status.done);
+}
 
 void draw_status_line(const ViewerModel& model) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
@@ -81,10 +91,13 @@ void draw_status_line(const ViewerModel& model) {
         line.item(fmt::format("{} spp", model.status.spp));
         line.item(clock_text(model.status.render_seconds));
         if (const char* state = state_words(model)) line.item(state, &accent);
-        if (std::isfinite(model.film.relative_error) && model.status.spp > 0) {
-            line.item(fmt::format("error {:.2f} %", 100 * model.film.relative_error));
-        }
-        line.item(fmt::format("{:.2f} Mrays/s", model.status.rays_per_second * 1e-6));
+        // The speed stays, and what matters more than it.
+        const std::string speed = fmt::format("{:.2f} Mrays/s", model.status.rays_per_second * 1e-6);
+        const float room = ImGui::CalcTextSize(speed.c_str()).x + 3 * unit();
+        const ErrorWords words = words_of(model);
+        if (!words.brief.empty() && !line.item(words.sentence, nullptr, room) && !line.item(words.brief, nullptr, room))
+            line.item("±" + percent_text(model.film.relative_error));
+        line.item(speed);
         if (model.job.request.settings.biased()) line.item("biased", &alarm);
         if (model.film.non_finite > 0) line.item(fmt::format("{} samples not finite", model.film.non_finite), &alarm);
         if (!model.job.warnings.empty()) {
@@ -151,6 +164,8 @@ void draw_help() {
                                        {"tone curve", "T"},
                                        {"turn, hide environment", "Shift+right drag, J"},
                                        {"play, one frame back, on", "Space  [  ]"},
+                                       {"error map, next map", "V, Shift+V"},
+                                       {"wipe of the map", "drag its line; , and ."},
                                        {"pause rendering", "P"},
                                        {"save picture", "Ctrl+S, F12"},
                                        {"reload", "F5"},
@@ -198,6 +213,8 @@ void draw_statistics(const ViewerModel& model) {
         row("of which letting go", fmt::format("{:.1f} ms", 1e3 * status.last_cancel_seconds));
         ImGui::EndTable();
     }
+    ImGui::Separator();
+    draw_convergence(model);
     ImGui::PushTextWrapPos(30 * unit());
     for (const std::string& warning : model.job.warnings) {
         ImGui::PushStyleColor(ImGuiCol_Text, accent);

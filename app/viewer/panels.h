@@ -17,6 +17,16 @@ bool draw_notice(const ViewerModel& model);
 // Over the status line, for files with animations: while the panels are open or one of them is shown.
 bool timeline_is_shown(const ViewerModel& model);
 void draw_timeline(const ViewerModel& model, PanelEdits& edits);
+// What --until-error asked for, as a fraction.
+std::optional<double> asked_error(const ViewerModel& model);
+ErrorWords words_of(const ViewerModel& model);
+// The sentence of the stated error and its plot over time, in the current window.
+void draw_convergence(const ViewerModel& model);
+// The map beside the picture: where its line stands, in points (none: no map is shown), the line with its labels, and
+// the colours with their numbers.
+std::optional<float> wipe_x(const ViewerModel& model);
+void draw_wipe(const ViewerModel& model);
+void draw_legend(const ViewerModel& model, bool beside_readings);
 void draw_help();
 void draw_statistics(const ViewerModel& model);
 // The exact values of a validation scene, marked in the picture; nothing for other scenes.

@@ -99,6 +99,14 @@ void display_section(ViewerModel& model, PanelEdits& edits) {
     constexpr const char* curves[] = {"linear", "neutral", "ACES", "AgX"};
     edits.tone |= ImGui::SliderFloat("exposure", &model.display.tone.exposure_ev, -10, 10, "%+.2f EV");
     edits.tone |= choose("tone curve", model.display.tone.curve, curves);
+    constexpr const char* maps[] = {"none", "error", "samples", "rays", "bounces"};
+    int map = model.map.shown ? 1 + static_cast<int>(model.map.map) : 0;
+    if (choose("map", map, maps)) {
+        model.map.shown = map > 0;
+        if (map > 0) model.map.map = static_cast<PixelMap>(map - 1);
+        edits.map = true;
+    }
+    if (model.map.shown) edits.map |= ImGui::SliderFloat("wipe", &model.map.wipe, 0, 1, "%.2f");
 }
 
 void scene_section(const ViewerModel& model, PanelEdits& edits) {

@@ -86,7 +86,7 @@ void Ui::build_fonts() {
     ImGuiIO& io = ImGui::GetIO();
     const float pixels_per_point = size_.points.x > 0 ? static_cast<float>(size_.pixels.x) / size_.points.x : 1.0f;
     io.Fonts->Clear();
-    const ImWchar ranges[] = {0x20, 0xff, 0x2010, 0x2026, 0x2190, 0x21ff, 0x2248, 0x2248, 0};
+    const ImWchar ranges[] = {0x20, 0xff, 0x2010, 0x2026, 0x2190, 0x21ff, 0x2212, 0x2212, 0x2248, 0x2248, 0};
     ImFont* font = nullptr;
     for (const char* path : font_paths) {
         // ImGui aborts on a missing file.

@@ -18,6 +18,8 @@ constexpr double notice_seconds = 4;
 constexpr double progress_seconds = 0.05;
 // The first picture of an edit is expected within this; to draw the old one again before it would only delay it.
 constexpr double first_frame_seconds = 0.025;
+// How near to the line of the wipe the pointer grips it.
+constexpr float wipe_grip_points = 8;
 
 }  // namespace
 
@@ -26,12 +28,19 @@ Viewer::Viewer(const RenderOptions& options, const GlContext& context, const Vie
     model_.options = options;
     model_.display.tone = options.tone;
     model_.show_interface = viewer_options.interface;
+    model_.map = {options.map.has_value(), options.map.value_or(PixelMap::error), options.wipe};
+    for (const std::string& name : options.open) {
+        if (name == "panels") model_.show_panels = true;
+        if (name == "statistics") model_.show_statistics = true;
+        if (name == "help") model_.show_help = true;
+    }
     size_.pixels = context.framebuffer_extent();
     size_.points = Vec2(size_.pixels);
     if (viewer_options.interface) ui_ = std::make_unique<Ui>(context);
     SessionOptions session_options;
     session_options.threads = options.threads;
     session_ = std::make_unique<RenderSession>(session_options);
+    session_->show_maps(model_.map.shown);
     if (!options.scene.empty()) start_load(options, false);
 }
 
@@ -286,9 +295,43 @@ void Viewer::take_frame() {
     model_.frame_epoch = frame_->epoch;
     model_.frame_serial = frame_->serial;
     model_.film = frame_->statistics;
+    model_.history = frame_->history;
     model_.frame_extent = {frame_->image.width(), frame_->image.height()};
     hold_until_s_ = 0;
     redraws_ = std::max(redraws_, 1);
+    update_map();
+}
+
+void Viewer::show_map(const MapView& view) {
+    model_.map = view;
+    session_->show_maps(view.shown);
+    update_map();
+}
+
+// What the display and the panels need to know of the map that is shown.
+void Viewer::update_map() {
+    redraws_ = std::max(redraws_, 1);
+    model_.display.map.reset();
+    if (!model_.map.shown || frame_ == nullptr) return;
+    model_.map_scale = scale_of(model_.map.map, frame_->maps);
+    model_.display.map = DisplayedMap{model_.map.map, model_.map_scale, model_.map.wipe};
+}
+
+bool Viewer::map_is_missing() const {
+    return model_.map.shown && frame_ != nullptr && frame_->maps.size() == 0 && model_.status.error.empty();
+}
+
+// Where the frame that is shown stands in the window.
+void Viewer::place_picture() {
+    const FitRectangle fit = fit_rectangle(model_.frame_extent, size_.pixels);
+    const float points_per_pixel = size_.points.x / static_cast<float>(std::max(size_.pixels.x, 1u));
+    model_.picture_left = static_cast<float>(fit.x) * points_per_pixel;
+    model_.picture_width = static_cast<float>(fit.width) * points_per_pixel;
+}
+
+bool Viewer::wipe_is_at_cursor() const {
+    const std::optional<float> x = wipe_x(model_);
+    return x && ui_ != nullptr && std::abs(cursor_.x - *x) <= wipe_grip_points;
 }
 
 bool Viewer::update() {
@@ -325,8 +368,13 @@ void Viewer::draw() {
         if (model_.loading) draw_loading_bar(model_);
         if (!model_.has_scene() && !model_.loading) draw_welcome(model_);
         if (model_.show_statistics) draw_statistics(model_);
+        place_picture();
+        draw_wipe(model_);
         if (model_.has_scene()) {
-            draw_validation(read_validation(model_.job.scene_path, *model_.job.world, model_.job.request.view, frame_));
+            const std::vector<ValidationReading> readings =
+                read_validation(model_.job.scene_path, *model_.job.world, model_.job.request.view, frame_);
+            draw_validation(readings);
+            draw_legend(model_, !readings.empty());
         }
         if (model_.show_panels) edits = draw_side_panel(model_);
         if (timeline_is_shown(model_)) draw_timeline(model_, edits);
@@ -351,6 +399,7 @@ void Viewer::apply(const PanelEdits& edits) {
         if (!model_.playback.animation) model_.playback.animation = 0;
         seek(*edits.seek_s);
     }
+    if (edits.map) show_map(model_.map);
     if (edits.frame_all) frame_everything();
     if (edits.camera) show_file_camera(*edits.camera);
     if (edits.scene) {
@@ -361,11 +410,13 @@ void Viewer::apply(const PanelEdits& edits) {
     }
     if (edits.variant) start_variant_change(*edits.variant);
     if (edits.validation_scene) open_validation_scene(*edits.validation_scene);
-    if (edits.view || edits.settings || edits.environment || edits.tone || edits.toggle_pause) redraws_ = 2;
+    if (edits.view || edits.settings || edits.environment || edits.tone || edits.map || edits.toggle_pause)
+        redraws_ = 2;
 }
 
 bool Viewer::finished() const {
     if (loader_.busy() || dirty_ || environment_dirty_ || pose_is_wanted()) return false;
+    if (map_is_missing()) return false;
     return !model_.has_scene() || model_.status.done;
 }
 
@@ -373,6 +424,7 @@ double Viewer::seconds_until_update() const {
     if (redraws_ > 0 || dirty_) return now_s() < hold_until_s_ ? 0.001 : 0;
     if (model_.playback.playing || (loader_.busy() && load_is_ == LoadKind::pose)) return 0.004;
     if (loader_.busy()) return 0.02;
+    if (map_is_missing()) return 0.008;
     if (model_.has_scene() && !model_.status.done && !model_.status.paused) return 0.008;
     return 0.25;
 }

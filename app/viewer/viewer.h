@@ -66,7 +66,7 @@ class Viewer {
         std::optional<uint32_t> followed_camera;
         uint32_t next_camera = 0;
     };
-    enum class DragMode : uint8_t { none, orbit, pan, dolly, environment };
+    enum class DragMode : uint8_t { none, orbit, pan, dolly, environment, wipe };
 
     RenderOptions options_for(const std::string& path) const;
     void start_load(RenderOptions options, bool keep_view);
@@ -97,6 +97,11 @@ class Viewer {
     void save_next();
     void toggle_background();
     void toggle_pause();
+    void show_map(const MapView& view);
+    void update_map();
+    bool map_is_missing() const;  // asked for, and not in the frame that is shown
+    void place_picture();
+    bool wipe_is_at_cursor() const;
     void set_focus_at_cursor();
 
     // The animation that is shown; null: none is.

@@ -16,6 +16,7 @@ constexpr double double_click_s = 0.4;
 constexpr float double_click_points = 6;
 constexpr float dolly_per_step = 0.88f;
 constexpr float exposure_step_ev = 0.25f;
+constexpr float wipe_step = 0.05f;
 
 bool is_scene_file(const std::string& path) {
     const std::string extension = extension_of(path);
@@ -85,7 +86,9 @@ void Viewer::handle_mouse_press(const MousePressed& event) {
     if (!model_.has_scene() || drag_ != DragMode::none) return;
     drag_button_ = event.button;
     const Modifiers& modifiers = event.modifiers;
-    if (event.button == MouseButton::middle) {
+    if (event.button == MouseButton::left && wipe_is_at_cursor()) {
+        drag_ = DragMode::wipe;
+    } else if (event.button == MouseButton::middle) {
         drag_ = DragMode::pan;
     } else if (event.button == MouseButton::right) {
         drag_ = modifiers.shift ? DragMode::environment : DragMode::dolly;
@@ -125,6 +128,11 @@ void Viewer::handle_mouse_move(const Vec2& point) {
             break;
         case DragMode::dolly:
             set_view(dolly(model_.view, drag_anchor_, std::exp2(3 * drag.y), aspect()));
+            break;
+        case DragMode::wipe:
+            model_.map.wipe =
+                std::clamp((point.x - model_.picture_left) / std::max(model_.picture_width, 1.0f), 0.0f, 1.0f);
+            update_map();
             break;
         case DragMode::environment:
             if (model_.job.environment == nullptr) break;
@@ -198,6 +206,21 @@ void Viewer::handle_key(const KeyPressed& event) {
         case Key::p:
             toggle_pause();
             return;
+        case Key::v: {
+            MapView view = model_.map;
+            view.shown = modifiers.shift || !view.shown;
+            if (modifiers.shift && model_.map.shown)
+                view.map = static_cast<PixelMap>((static_cast<int>(view.map) + 1) % 4);
+            show_map(view);
+            return;
+        }
+        case Key::comma:
+        case Key::period: {
+            MapView view = model_.map;
+            view.wipe = std::clamp(view.wipe + (event.key == Key::comma ? -wipe_step : wipe_step), 0.0f, 1.0f);
+            show_map(view);
+            return;
+        }
         case Key::j:
             toggle_background();
             return;

@@ -4,6 +4,8 @@
 
 #include "app/gl/display.h"
 #include "app/render_job.h"
+#include "app/viewer/error_words.h"
+#include "app/viewer/map_view.h"
 #include "app/viewer/playback.h"
 #include "app/viewer/scene_loader.h"
 #include "app/viewer/view_control.h"
@@ -16,6 +18,9 @@ struct ViewerModel {
     OrbitView view;
     DisplaySettings display;
     Playback playback;
+    MapView map;
+    HeatScale map_scale;                        // of the map that is shown
+    float picture_left = 0, picture_width = 0;  // where the picture stands in the window, in points
 
     bool show_interface = true;  // false: only the picture
     bool show_panels = false;
@@ -25,6 +30,7 @@ struct ViewerModel {
     // What the session and the loader say, as of the last update.
     SessionStatus status;
     FilmStatistics film;
+    ErrorHistory history;
     Vec2u frame_extent{0};
     uint64_t frame_epoch = 0;  // the submit that the frame shown belongs to
     uint64_t frame_serial = 0;
@@ -46,6 +52,7 @@ struct PanelEdits {
     bool settings = false;     // how it is rendered: restarts
     bool environment = false;  // a new world off-thread
     bool tone = false;         // only drawn anew
+    bool map = false;          // another map, or none
     bool toggle_pause = false;
     bool frame_all = false;
     bool toggle_play = false;

@@ -19,6 +19,8 @@ std::string last_error() {
 
 Key key_of(int glfw_key) {
     static const std::map<int, Key> named = {{GLFW_KEY_SPACE, Key::space},
+                                             {GLFW_KEY_COMMA, Key::comma},
+                                             {GLFW_KEY_PERIOD, Key::period},
                                              {GLFW_KEY_LEFT_BRACKET, Key::left_bracket},
                                              {GLFW_KEY_RIGHT_BRACKET, Key::right_bracket},
                                              {GLFW_KEY_ESCAPE, Key::escape},

@@ -22,16 +22,30 @@ TEST_F(CommandLine, RendersEveryFormatAndRecordsTheRun) {
         EXPECT_TRUE(std::filesystem::exists(folder_ / name));
     }
     const Outcome stats = run("render -o " + file("b.exr") + tiny +
-                              "--stats - --aov albedo,normal,depth,position,uv,material,instance,samples,variance");
+                              "--stats - --aov albedo,normal,depth,position,uv,material,instance,samples,variance,"
+                              "error,rays,bounces");
     EXPECT_EQ(stats.status, 0) << stats.text;
-    for (const char* key :
-         {"candela",     "scene",   "resolution",     "spp",          "seed",     "threads", "triangles",
-          "instances",   "lights",  "seconds",        "load",         "build",    "render",  "write",
-          "first_frame", "samples", "rays",           "camera",       "bounce",   "shadow",  "relative_error",
-          "non_finite",  "biased",  "peak_rss_bytes", "image_sha256", "warnings", "command"}) {
+    for (const char* key : {"candela",        "scene",
+                            "resolution",     "spp",
+                            "seed",           "threads",
+                            "triangles",      "instances",
+                            "lights",         "seconds",
+                            "load",           "build",
+                            "render",         "write",
+                            "first_frame",    "samples",
+                            "rays",           "camera",
+                            "bounce",         "shadow",
+                            "relative_error", "relative_error_95",
+                            "non_finite",     "biased",
+                            "peak_rss_bytes", "image_sha256",
+                            "warnings",       "command"}) {
         EXPECT_NE(stats.text.find("\"" + std::string(key) + "\":"), std::string::npos) << key;
     }
     EXPECT_NE(stats.text.find("\"non_finite\": 0"), std::string::npos);
+    std::ifstream layers(folder_ / "b.exr", std::ios::binary);
+    const std::string header(std::istreambuf_iterator<char>(layers), {});
+    for (const char* name : {"albedo.R", "variance.V", "error.V", "rays.V", "bounces.V"})
+        EXPECT_NE(header.find(name), std::string::npos) << name;
 }
 
 TEST_F(CommandLine, ThePictureDoesNotDependOnThreads) {
@@ -101,7 +115,9 @@ TEST_F(CommandLine, WrongUsageIsTwo) {
           "render -o " + file("a.png") + " --variant red", "render -o " + file("a.png") + " --scene 5",
           std::string("info assets/cornell_box.glb --scene 5"),
           std::string("info assets/cornell_box.glb --variant red"), "screenshot -o " + file("a.png") + " --scene 5",
-          "screenshot -o " + file("a.png") + " --variant red", "render -o " + file("a.exr") + " --aov colour"}) {
+          "screenshot -o " + file("a.png") + " --map colour", "screenshot -o " + file("a.png") + " --wipe 2",
+          "screenshot -o " + file("a.png") + " --open doors", "screenshot -o " + file("a.png") + " --variant red",
+          "render -o " + file("a.exr") + " --aov colour"}) {
         const Outcome outcome = run(arguments);
         EXPECT_EQ(outcome.status, 2) << arguments << "\n" << outcome.text;
         EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
@@ -138,6 +154,20 @@ TEST_F(CommandLine, AScreenshotIsTheRenderedPictureAndItsPanelsLieOverIt) {
     }
     EXPECT_LT(plain_difference, 0.01);  // one level of 255
     EXPECT_GT(panel_difference, 0.1);
+}
+
+TEST_F(CommandLine, AScreenshotShowsTheMapThatIsAskedFor) {
+    const std::string common = "screenshot --no-ui --spp 4 --resolution 48x32 --quiet -o ";
+    ASSERT_EQ(run(common + file("plain.png")).status, 0);
+    ASSERT_EQ(run(common + file("map.png") + " --map error --wipe 0.5").status, 0);
+    const ImageRgba32f plain = read_any_as_linear(folder_ / "plain.png"), map = read_any_as_linear(folder_ / "map.png");
+    double left = 0, right = 0;
+    for (int y = 0; y < 32; ++y) {
+        for (int x = 0; x < 48; ++x)
+            (x < 24 ? left : right) += static_cast<double>(std::abs(plain(x, y).g - map(x, y).g));
+    }
+    EXPECT_EQ(left, 0);
+    EXPECT_GT(right, 10);
 }
 
 TEST_F(CommandLine, AScreenshotFailsAsTheContractSays) {

@@ -101,6 +101,65 @@ TEST(Display, AFrameOfAnotherShapeIsFittedInTheMiddle) {
     EXPECT_EQ(drawn(50, 75), border);
 }
 
+// One number in each channel; the error is unknown in the first row.
+Frame mapped_frame(int width, int height) {
+    Frame frame = make_frame(width, height);
+    frame.maps = ImageRgba32f(width, height);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const float t = static_cast<float>(x) / static_cast<float>(width - 1);
+            frame.maps(x, y) = Vec4(y == 0 ? -1.0f : std::pow(10.0f, -4 + 5 * t), 100 * t, 30 * t * t, 12 - 12 * t);
+        }
+    }
+    return frame;
+}
+
+TEST(Display, MapsHaveTheColoursOfTheCpu) {
+    const Frame frame = mapped_frame(173, 9);
+    const OsmesaContext context({173, 9});
+    Display display(context);
+    display.upload(frame);
+    const std::pair<PixelMap, HeatScale> shown[] = {{PixelMap::error, {1e-3f, 1, true}},
+                                                    {PixelMap::samples, {0, 100, false}},
+                                                    {PixelMap::rays, {0, 20, false}},
+                                                    {PixelMap::bounces, {0, 20, false}}};
+    for (const auto& [map, scale] : shown) {
+        display.draw({{}, false, DisplayedMap{map, scale, 0}});
+        const ImageRgba8 drawn = read_back(context);
+        for (int x = 0; x < 173; ++x) {
+            const Vec3 exact = 255.0f * heat_color(scale.position(frame.maps(x, 4)[static_cast<int>(map)]));
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(drawn(x, 4)[c], exact[c], 0.5f + 0.1f) << static_cast<int>(map) << " at " << x;
+        }
+        if (map == PixelMap::error) {
+            EXPECT_EQ(drawn(20, 0), Rgba8(64, 64, 64, 255)) << "unknown";
+        }
+    }
+}
+
+TEST(Display, TheWipeParts) {
+    const Frame frame = mapped_frame(100, 10);
+    const OsmesaContext context({100, 10});
+    Display display(context);
+    display.upload(frame);
+    display.draw({{}, false});
+    const ImageRgba8 plain = read_back(context);
+    const HeatScale scale{0, 100, false};
+    display.draw({{}, false, DisplayedMap{PixelMap::samples, scale, 0}});
+    const ImageRgba8 map = read_back(context);
+    display.draw({{}, false, DisplayedMap{PixelMap::samples, scale, 0.3f}});
+    const ImageRgba8 both = read_back(context);
+    for (int x = 0; x < 100; ++x)
+        ASSERT_EQ(both(x, 5), x < 30 ? plain(x, 5) : map(x, 5)) << x;
+
+    // A frame that came without maps is only a picture, whatever is asked for.
+    Frame without = make_frame(100, 10);
+    without.serial = 2;
+    display.upload(without);
+    display.draw({{}, false, DisplayedMap{PixelMap::samples, scale, 0}});
+    EXPECT_EQ(read_back(context)(70, 5), plain(70, 5));
+}
+
 TEST(Display, ANewFrameReplacesTheOldAndAnEqualOneIsNotUploadedAgain) {
     Frame frame;
     frame.image = ImageRgba32f(8, 8, Vec4(1, 1, 1, 1));

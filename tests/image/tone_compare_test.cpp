@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/image/compare.h"
+#include "renderer/image/heat.h"
 #include "renderer/image/tone.h"
 
 namespace candela {
@@ -19,6 +20,22 @@ TEST(Tone, CurvesAreMonotoneAndMeetTheirAnchors) {
     EXPECT_NEAR(linear_from_srgb(display_from_linear(Vec3(0.5f), {0, ToneCurve::neutral}).x), 0.46f, 1e-4f);
     EXPECT_NEAR(display_from_linear(Vec3(0.18f), {0, ToneCurve::linear}).x, 0.4613561f, 1e-5f);
     EXPECT_NEAR(linear_from_srgb(srgb_from_linear(0.3f)), 0.3f, 1e-6f);
+}
+
+TEST(Heat, ColoursGrowLighterAndScalesMeetTheirEnds) {
+    float last = -1;
+    for (float t = 0; t <= 1; t += 1.0f / 64) {
+        const float lightness = luminance(heat_color(t));
+        EXPECT_GT(lightness, last) << t;
+        last = lightness;
+    }
+    EXPECT_LT(luminance(heat_color(0)), 0.01f);
+    EXPECT_GT(luminance(heat_color(1)), 0.9f);
+    EXPECT_EQ(heat_color(7), heat_color(1));
+    const HeatScale decades{1e-3f, 1, true}, linear{0, 50, false};
+    EXPECT_NEAR(decades.position(1e-2f), 1.0f / 3, 1e-6f);
+    EXPECT_EQ(decades.position(0), 0);
+    EXPECT_EQ(linear.position(25), 0.5f);
 }
 
 TEST(Compare, KnownDifferences) {

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// What the wipe and the colours of a map mean.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "app/viewer/panels.h"
+
+namespace candela {
+
+namespace {
+
+ImU32 heat_u32(float t) {
+    const Vec3 color = heat_color(t);
+    return ImGui::ColorConvertFloat4ToU32({color.x, color.y, color.z, 1});
+}
+
+// A word on dark ground beside the line.
+void label(ImDrawList* draw, const char* words, float x, float y, float pivot) {
+    const float unit = ImGui::GetFontSize();
+    const ImVec2 size = ImGui::CalcTextSize(words);
+    const ImVec2 at(x - pivot * size.x, y);
+    draw->AddRectFilled({at.x - 0.4f * unit, at.y - 0.2f * unit}, {at.x + size.x + 0.4f * unit, at.y + 1.2f * unit},
+                        IM_COL32(23, 23, 26, 225), 0.25f * unit);
+    draw->AddText(at, IM_COL32(237, 237, 235, 255), words);
+}
+
+// The bar's marks: decades, or quarters of a linear scale.
+std::vector<float> marks_of(const HeatScale& scale) {
+    std::vector<float> out;
+    if (!scale.logarithmic) {
+        for (int i = 0; i <= 4; ++i)
+            out.push_back(scale.low + (scale.high - scale.low) * static_cast<float>(i) / 4);
+        return out;
+    }
+    for (float mark = scale.low; mark < 1.5f * scale.high; mark *= 10)
+        out.push_back(mark);
+    return out;
+}
+
+}  // namespace
+
+std::optional<float> wipe_x(const ViewerModel& model) {
+    if (!model.map.shown || !model.has_scene() || model.frame_extent.x == 0) return std::nullopt;
+    return model.picture_left + model.map.wipe * model.picture_width;
+}
+
+void draw_wipe(const ViewerModel& model) {
+    const std::optional<float> line = wipe_x(model);
+    if (!line) return;
+    const float unit = ImGui::GetFontSize(), bottom = ImGui::GetIO().DisplaySize.y - 1.8f * unit;
+    const float x = std::round(*line);
+    ImDrawList* draw = ImGui::GetBackgroundDrawList();
+    draw->AddLine({x, 0}, {x, bottom}, IM_COL32(0, 0, 0, 160), 3);
+    draw->AddLine({x, 0}, {x, bottom}, IM_COL32(255, 255, 255, 255), 1);
+
+    // The handle: two triangles that point both ways.
+    const float y = 0.5f * bottom, r = 0.45f * unit;
+    draw->AddRectFilled({x - 1.6f * r, y - 1.4f * r}, {x + 1.6f * r, y + 1.4f * r}, IM_COL32(23, 23, 26, 225),
+                        0.5f * r);
+    for (const float side : {-1.0f, 1.0f}) {
+        draw->AddTriangleFilled({x + side * 1.2f * r, y}, {x + side * 0.35f * r, y - 0.8f * r},
+                                {x + side * 0.35f * r, y + 0.8f * r}, IM_COL32(237, 237, 235, 255));
+    }
+
+    // What is on either side, where there is room for it.
+    const float left = model.picture_left, right = left + model.picture_width;
+    const char* title = title_of(model.map.map);
+    const float top = bottom - 2.2f * unit;
+    if (x - left > ImGui::CalcTextSize("picture").x + 2 * unit) label(draw, "picture", x - unit, top, 1);
+    if (right - x > ImGui::CalcTextSize(title).x + 2 * unit) label(draw, title, x + unit, top, 0);
+}
+
+void draw_legend(const ViewerModel& model, bool beside_readings) {
+    if (!model.map.shown || !model.has_scene()) return;
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float unit = ImGui::GetFontSize();
+    const bool is_error = model.map.map == PixelMap::error;
+    const HeatScale& scale = model.map_scale;
+    // At the left above the status line; where readings stand there, in the middle above the timeline.
+    const float foot = beside_readings && timeline_is_shown(model) ? 5.4f * unit : 2.4f * unit;
+    ImGui::SetNextWindowPos({beside_readings ? 0.5f * display.x : unit, display.y - foot}, ImGuiCond_Always,
+                            {beside_readings ? 0.5f : 0.0f, 1});
+    ImGui::Begin("legend", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize |
+                     ImGuiWindowFlags_NoInputs);
+    ImGui::TextUnformatted(title_of(model.map.map));
+    if (is_error) {
+        ImGui::SameLine();
+        ImGui::TextDisabled("of its value");
+    }
+
+    // The bar, and below it numbers at their places.
+    const float width = std::min(20 * unit, display.x - 4 * unit), height = 0.8f * unit, inset = 1.2f * unit;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    constexpr int steps = 64;
+    const float left = at.x + inset, span = width - 2 * inset;
+    for (int i = 0; i < steps; ++i) {
+        const float a = static_cast<float>(i) / steps, b = static_cast<float>(i + 1) / steps;
+        draw->AddRectFilledMultiColor({left + a * span, at.y}, {left + b * span, at.y + height}, heat_u32(a),
+                                      heat_u32(b), heat_u32(b), heat_u32(a));
+    }
+    draw->AddRect({left - 1, at.y - 1}, {left + span + 1, at.y + height + 1}, IM_COL32(110, 110, 112, 255));
+    for (const float mark : marks_of(scale)) {
+        const float x = left + span * scale.position(mark);
+        const std::string words = is_error ? fmt::format("{:.3g} %", 100 * mark) : fmt::format("{:.4g}", mark);
+        draw->AddLine({x, at.y + height + 1}, {x, at.y + height + 0.3f * unit}, IM_COL32(160, 160, 158, 255));
+        draw->AddText({x - 0.5f * ImGui::CalcTextSize(words.c_str()).x, at.y + height + 0.4f * unit},
+                      ImGui::GetColorU32(ImGuiCol_Text), words.c_str());
+    }
+    ImGui::Dummy({width, height + 1.4f * unit});
+    ImGui::End();
+}
+
+}  // namespace candela
