@@ -15,6 +15,10 @@ class AccessorReader {
     AccessorReader(LoadContext& context, const Layout& layout, BufferStore& buffers)
         : context_(context), layout_(layout), buffers_(buffers) {}
 
+    // The same, for a part of the load that runs on a thread of its own.
+    AccessorReader(LoadContext& context, const AccessorReader& whole)
+        : context_(context), layout_(whole.layout_), buffers_(whole.buffers_) {}
+
     const AccessorLayout& layout(uint32_t accessor) const { return layout_.accessors[accessor]; }
     const Layout& layout() const { return layout_; }
 

@@ -9,7 +9,8 @@ BufferStore::BufferStore(LoadContext& context, const Layout& layout, const Asset
       layout_(layout),
       owned_(layout.buffers.size()),
       buffers_(layout.buffers.size()),
-      decoded_(layout.views.size()) {
+      decoded_(layout.views.size()),
+      asked_(layout.views.size()) {
     for (size_t i = 0; i < layout.buffers.size(); ++i) {
         context.check_cancel();
         if (layout.buffers[i].needed) buffers_[i] = read_buffer(i, files, glb_bin);
@@ -46,23 +47,25 @@ std::span<const std::byte> BufferStore::read_buffer(size_t index, const AssetFil
     return bytes.first(buffer.byte_length);
 }
 
+void BufferStore::decode(uint32_t index) {
+    const ViewLayout& view = layout_.views[index];
+    const CompressedLayout& source = *view.compressed;
+    const std::string where = pointer_to("/bufferViews", index, "extensions") + "/" + source.extension;
+    context_.charge(source.count, source.stride, where + "/count");
+    try {
+        decoded_[index] = decode_meshopt({buffers_[source.buffer].subspan(source.byte_offset, source.byte_length),
+                                          source.count, source.stride, source.mode, source.filter});
+    } catch (const std::runtime_error& error) {
+        context_.fail(where, error.what());
+    }
+    if (decoded_[index].size() != view.byte_length) context_.fail(where, "decodes to another size than declared");
+}
+
 std::span<const std::byte> BufferStore::view(uint32_t index) {
     const ViewLayout& view = layout_.views[index];
     if (!view.compressed) return buffers_[view.buffer].subspan(view.byte_offset, view.byte_length);
-    std::vector<std::byte>& decoded = decoded_[index];
-    if (decoded.empty()) {
-        const CompressedLayout& source = *view.compressed;
-        const std::string where = pointer_to("/bufferViews", index, "extensions") + "/" + source.extension;
-        context_.charge(source.count, source.stride, where + "/count");
-        try {
-            decoded = decode_meshopt({buffers_[source.buffer].subspan(source.byte_offset, source.byte_length),
-                                      source.count, source.stride, source.mode, source.filter});
-        } catch (const std::runtime_error& error) {
-            context_.fail(where, error.what());
-        }
-        if (decoded.size() != view.byte_length) context_.fail(where, "decodes to another size than declared");
-    }
-    return decoded;
+    std::call_once(asked_[index], [&] { decode(index); });
+    return decoded_[index];
 }
 
 }  // namespace candela

@@ -2,6 +2,7 @@
 // The bytes of a file's buffers and buffer views, read once and decompressed when first asked for.
 #pragma once
 
+#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -18,7 +19,7 @@ class BufferStore {
     BufferStore(LoadContext& context, const Layout& layout, const AssetFiles& files,
                 std::optional<std::span<const std::byte>> glb_bin);
 
-    // byteLength bytes; valid as long as the store. Throws LoadError where compressed data is damaged.
+    // byteLength bytes; valid as long as the store. Throws LoadError where compressed data is damaged. From any thread.
     std::span<const std::byte> view(uint32_t index);
 
   private:
@@ -29,7 +30,11 @@ class BufferStore {
     const Layout& layout_;
     std::vector<std::vector<std::byte>> owned_;
     std::vector<std::span<const std::byte>> buffers_;
-    std::vector<std::vector<std::byte>> decoded_;  // by view; empty: not compressed or not yet asked for
+    void decode(uint32_t index);
+
+    // By view, where it is compressed, once it was asked for.
+    std::vector<std::vector<std::byte>> decoded_;
+    std::vector<std::once_flag> asked_;
 };
 
 }  // namespace candela

@@ -13,6 +13,12 @@ constexpr const char* name = "KHR_draco_mesh_compression";
 
 }  // namespace
 
+std::optional<uint32_t> draco_view(const tinygltf::Primitive& primitive) {
+    const tinygltf::Value* source = find_extension(primitive.extensions, name);
+    if (source == nullptr || !source->Has("bufferView")) return std::nullopt;
+    return static_cast<uint32_t>(source->Get("bufferView").GetNumberAsInt());
+}
+
 // Which accessors a stream fills, by the ids of its attributes.
 struct DracoPrimitives::Request {
     uint32_t view = 0;

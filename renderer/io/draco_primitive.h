@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "renderer/io/accessors.h"
@@ -15,6 +16,9 @@ struct Primitive;
 namespace candela {
 
 class DracoMesh;
+
+// Which buffer view holds the compressed form of a primitive, if it has one.
+std::optional<uint32_t> draco_view(const tinygltf::Primitive& primitive);
 
 class DracoPrimitives {
   public:

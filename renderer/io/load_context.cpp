@@ -2,7 +2,6 @@
 #include "renderer/io/load_context.h"
 
 #include <limits>
-#include <utility>
 
 namespace candela {
 
@@ -33,9 +32,11 @@ void LoadContext::charge(uint64_t bytes, const std::string& where) {
                                   std::to_string(options_.max_memory_bytes) +
                                   " bytes allows; --limit-memory raises it");
     }
+    net_bytes_ += bytes;
 }
 
 void LoadContext::release(uint64_t bytes) {
+    net_bytes_ -= std::min(net_bytes_, bytes);
     uint64_t used = used_bytes_.load();
     while (!used_bytes_.compare_exchange_weak(used, used - std::min(used, bytes))) {
     }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "renderer/io/load_gltf.h"
 
@@ -15,7 +16,11 @@ namespace candela {
 class LoadContext {
   public:
     LoadContext(std::string path, Diagnostics& diagnostics, const LoadOptions& options)
-        : path_(std::move(path)), diagnostics_(diagnostics), options_(options), own_bytes_(0), used_bytes_(own_bytes_) {}
+        : path_(std::move(path)),
+          diagnostics_(diagnostics),
+          options_(options),
+          own_bytes_(0),
+          used_bytes_(own_bytes_) {}
     // For a part of the load that runs on a thread of its own: its warnings are kept apart, memory is booked together.
     LoadContext(LoadContext& whole, Diagnostics& diagnostics)
         : path_(whole.path_),
@@ -43,6 +48,9 @@ class LoadContext {
     uint64_t bytes_left() const { return options_.max_memory_bytes - used_bytes_.load(); }
     // Called once where charge would fail: what it releases may do. Of this context only.
     void set_relief(std::function<void()> relief) { relief_ = std::move(relief); }
+    std::function<void()> take_relief() { return std::exchange(relief_, nullptr); }
+    // What charge has booked through this context and release has not given back.
+    uint64_t net_bytes() const { return net_bytes_; }
 
     // Throws LoadError where value is over a limit of the options. unit: "nodes"; option: "--limit-count".
     void check_limit(uint64_t value, uint64_t limit, const char* unit, const char* option,
@@ -57,6 +65,7 @@ class LoadContext {
     Diagnostics& diagnostics_;
     const LoadOptions& options_;
     std::function<void()> relief_;
+    uint64_t net_bytes_ = 0;
     std::atomic<uint64_t> own_bytes_;
     std::atomic<uint64_t>& used_bytes_;
 };

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/io/meshes.h"
 
+#include <atomic>
+#include <exception>
+
+#include <tbb/parallel_for.h>
+
 #include "renderer/io/deformations.h"
 #include "renderer/io/draco_primitive.h"
 #include "renderer/io/materials.h"
@@ -227,6 +232,112 @@ std::optional<Primitive> PrimitiveLoader::load() {
     return out;
 }
 
+// Every primitive of the file, in order, and what becomes of it.
+struct PrimitiveSource {
+    const tinygltf::Primitive* source = nullptr;
+    std::string where;
+    bool skinned = false;
+};
+
+class PrimitivesLoader {
+  public:
+    PrimitivesLoader(LoadContext& context, AccessorReader& accessors, const Scene& scene,
+                     std::vector<PrimitiveSource> sources)
+        : context_(context), accessors_(accessors), scene_(scene), sources_(std::move(sources)) {}
+
+    std::vector<std::optional<Primitive>> run();
+
+  private:
+    struct Part {
+        size_t first = 0, last = 0;
+        Diagnostics diagnostics;
+        std::exception_ptr error;
+        bool over_limit = false;
+        uint64_t booked_bytes = 0;
+    };
+    std::vector<Part> parts() const;
+    void load(LoadContext& context, AccessorReader& accessors, size_t first, size_t last);
+    bool run_together();
+
+    LoadContext& context_;
+    AccessorReader& accessors_;
+    const Scene& scene_;
+    std::vector<PrimitiveSource> sources_;
+    std::vector<std::optional<Primitive>> out_;
+};
+
+void PrimitivesLoader::load(LoadContext& context, AccessorReader& accessors, size_t first, size_t last) {
+    DracoPrimitives draco(context, accessors);
+    for (size_t i = first; i < last; ++i) {
+        context.check_cancel();
+        const PrimitiveSource& each = sources_[i];
+        out_[i] = PrimitiveLoader(context, accessors, draco, scene_, *each.source, each.where, each.skinned).load();
+    }
+}
+
+// Primitives that share compressed data stay together.
+std::vector<PrimitivesLoader::Part> PrimitivesLoader::parts() const {
+    std::vector<Part> out;
+    std::optional<uint32_t> last_view;
+    for (size_t i = 0; i < sources_.size(); ++i) {
+        const std::optional<uint32_t> view = draco_view(*sources_[i].source);
+        if (i == 0 || !view || view != last_view) out.emplace_back().first = i;
+        out.back().last = i + 1;
+        last_view = view;
+    }
+    return out;
+}
+
+// False where there was not memory enough for several at a time: nothing has happened then.
+bool PrimitivesLoader::run_together() {
+    std::vector<Part> all = parts();
+    std::atomic<size_t> first_failed{all.size()};
+    tbb::parallel_for(size_t{0}, all.size(), [&](size_t i) {
+        // What comes after a failure need not be known; what comes before must.
+        if (i > first_failed.load(std::memory_order_relaxed)) return;
+        Part& part = all[i];
+        LoadContext context(context_, part.diagnostics);
+        AccessorReader accessors(context, accessors_);
+        try {
+            load(context, accessors, part.first, part.last);
+        } catch (const OverMemoryLimit&) {
+            part.error = std::current_exception();
+            part.over_limit = true;
+        } catch (...) {
+            part.error = std::current_exception();
+        }
+        part.booked_bytes = context.net_bytes();
+        size_t lowest = first_failed.load();
+        while (part.error && i < lowest && !first_failed.compare_exchange_weak(lowest, i)) {
+        }
+    });
+    if (std::any_of(all.begin(), all.end(), [](const Part& part) { return part.over_limit; })) {
+        for (const Part& part : all)
+            context_.release(part.booked_bytes);
+        return false;
+    }
+    for (const Part& part : all) {
+        for (const Diagnostic& warning : part.diagnostics.warnings())
+            context_.warn(warning.where, warning.message);
+        if (part.error) std::rethrow_exception(part.error);
+    }
+    return true;
+}
+
+std::vector<std::optional<Primitive>> PrimitivesLoader::run() {
+    out_.resize(sources_.size());
+    // Only the loading thread may ask the images for their memory.
+    std::function<void()> relief = context_.take_relief();
+    const bool done = run_together();
+    context_.set_relief(std::move(relief));
+    if (!done) {
+        out_.clear();
+        out_.resize(sources_.size());
+        load(context_, accessors_, 0, sources_.size());
+    }
+    return std::move(out_);
+}
+
 }  // namespace
 
 std::vector<Mesh> load_meshes(LoadContext& context, const tinygltf::Model& model, AccessorReader& accessors,
@@ -235,34 +346,43 @@ std::vector<Mesh> load_meshes(LoadContext& context, const tinygltf::Model& model
     for (const Node& node : scene.nodes) {
         if (node.mesh.valid() && node.skin.valid()) skinned[node.mesh.value] = 1;
     }
-    std::vector<Mesh> meshes;
-    DracoPrimitives draco(context, accessors);
+    std::vector<PrimitiveSource> sources;
     for (size_t m = 0; m < model.meshes.size(); ++m) {
-        const tinygltf::Mesh& source = model.meshes[m];
+        for (size_t p = 0; p < model.meshes[m].primitives.size(); ++p)
+            sources.push_back(
+                {&model.meshes[m].primitives[p], pointer_to("/meshes", m, "primitives", p), skinned[m] != 0});
+    }
+    std::vector<std::optional<Primitive>> primitives =
+        PrimitivesLoader(context, accessors, scene, std::move(sources)).run();
+
+    std::vector<Mesh> meshes;
+    size_t next = 0;
+    for (const tinygltf::Mesh& source : model.meshes) {
         Mesh& mesh = meshes.emplace_back();
         mesh.name = source.name;
-        for (size_t p = 0; p < source.primitives.size(); ++p) {
-            context.check_cancel();
-            const std::string where = pointer_to("/meshes", m, "primitives", p);
-            PrimitiveLoader loader(context, accessors, draco, scene, source.primitives[p], where, skinned[m] != 0);
-            if (std::optional<Primitive> primitive = loader.load()) mesh.primitives.push_back(std::move(*primitive));
+        for (size_t p = 0; p < source.primitives.size(); ++p, ++next) {
+            if (primitives[next]) mesh.primitives.push_back(std::move(*primitives[next]));
         }
     }
     return meshes;
 }
 
 void generate_missing_tangents(LoadContext& context, const Scene& scene, std::vector<Mesh>& meshes) {
+    std::vector<std::pair<Primitive*, uint32_t>> missing;
     for (size_t m = 0; m < meshes.size(); ++m) {
         for (Primitive& primitive : meshes[m].primitives) {
             if (!primitive.tangents.empty()) continue;
             const std::optional<uint32_t> uv_set = tangent_uv_set_of(scene, primitive);
             if (!uv_set || primitive.uv[*uv_set].empty()) continue;
-            context.check_cancel();
             // Vertices may be split, up to one per corner.
             context.charge(primitive.triangles.size() * 3, sizeof(Vec4), pointer_to("/meshes", m));
-            generate_tangents(primitive, *uv_set);
+            missing.emplace_back(&primitive, *uv_set);
         }
     }
+    tbb::parallel_for(size_t{0}, missing.size(), [&](size_t i) {
+        context.check_cancel();
+        generate_tangents(*missing[i].first, missing[i].second);
+    });
 }
 
 }  // namespace candela

@@ -3,6 +3,9 @@
 
 #include <map>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include "renderer/io/repair.h"
 #include "renderer/scene/place_nodes.h"
 
@@ -144,16 +147,43 @@ class BodyMaker {
           world_from_object_(world_from_object),
           object_from_world_(glm::inverse(world_from_object)),
           object_from_normal_(glm::transpose(world_from_object)),
-          mirrored_(glm::determinant(world_from_object) < 0.0) {}
+          mirrored_(glm::determinant(world_from_object) < 0.0) {
+        // All spheres are alike.
+        for (const Vec3& normal : detail.sphere.normals)
+            sphere_.push_back(relative(glm::dvec3(normal)));
+        for (uint32_t i = 0; i < detail.sides; ++i) {
+            const double angle = 2.0 * 3.14159265358979323846 * i / detail.sides;
+            sides_.emplace_back(std::cos(angle), std::sin(angle));
+        }
+    }
 
     void make(Primitive& primitive) {
         const std::vector<Vec3u> strokes = std::move(primitive.triangles);
-        const std::vector<Vec3> positions = primitive.positions;
-        for (uint32_t v = 0; v < positions.size(); ++v)
-            add_sphere(positions[v], v);
+        const std::vector<Vec3> positions = std::move(primitive.positions);
+        primitive.positions = primitive.normals = {};
+        // Where each sphere and each tube begins is known, so many can be made at a time.
+        std::vector<Vec3u> tubes;
         for (const Vec3u& stroke : strokes) {
-            if (stroke.x != stroke.y) add_tube(positions[stroke.x], stroke.x, positions[stroke.y], stroke.y);
+            if (stroke.x != stroke.y && has_length(axis_of(positions, stroke))) tubes.push_back(stroke);
         }
+        const size_t sphere_vertices = detail_.sphere.normals.size(),
+                     sphere_triangles = detail_.sphere.triangles.size();
+        const size_t tube_corners = size_t{2} * detail_.sides;
+        const size_t vertices = positions.size() * sphere_vertices + tubes.size() * tube_corners;
+        positions_.resize(vertices);
+        normals_.resize(vertices);
+        sources_.resize(vertices);
+        triangles_.resize(positions.size() * sphere_triangles + tubes.size() * tube_corners);
+        tbb::parallel_for(tbb::blocked_range<size_t>(0, positions.size(), 64), [&](const auto& range) {
+            for (size_t v = range.begin(); v != range.end(); ++v)
+                put_sphere(positions[v], static_cast<uint32_t>(v), v * sphere_vertices, v * sphere_triangles);
+        });
+        tbb::parallel_for(tbb::blocked_range<size_t>(0, tubes.size(), 64), [&](const auto& range) {
+            for (size_t i = range.begin(); i != range.end(); ++i) {
+                put_tube(positions, tubes[i], positions.size() * sphere_vertices + i * tube_corners,
+                         positions.size() * sphere_triangles + i * tube_corners);
+            }
+        });
         gather_vertices(primitive, sources_);
         primitive.positions = std::move(positions_);
         primitive.normals = std::move(normals_);
@@ -162,44 +192,58 @@ class BodyMaker {
     }
 
   private:
-    void add_vertex(const Vec3& center, const glm::dvec3& world_normal, uint32_t source) {
-        positions_.emplace_back(glm::dvec3(center) + object_from_world_ * (radius_ * world_normal));
-        normals_.emplace_back(glm::normalize(object_from_normal_ * world_normal));
-        sources_.push_back(source);
+    // A vertex of a body: how far from the middle, and its normal.
+    struct Offset {
+        glm::dvec3 offset;
+        Vec3 normal;
+    };
+    Offset relative(const glm::dvec3& world_normal) const {
+        return {object_from_world_ * (radius_ * world_normal),
+                Vec3(glm::normalize(object_from_normal_ * world_normal))};
+    }
+    glm::dvec3 axis_of(const std::vector<Vec3>& positions, const Vec3u& stroke) const {
+        return world_from_object_ * (glm::dvec3(positions[stroke.y]) - glm::dvec3(positions[stroke.x]));
+    }
+    static bool has_length(const glm::dvec3& axis) {
+        const double length = glm::length(axis);
+        return length > 0.0 && std::isfinite(length);
+    }
+
+    void put_vertex(size_t at, const Vec3& center, const Offset& offset, uint32_t source) {
+        positions_[at] = Vec3(glm::dvec3(center) + offset.offset);
+        normals_[at] = offset.normal;
+        sources_[at] = source;
     }
 
     // Wound as seen from outside in the world; a mirroring node turns that round (glTF 2.0, section 3.7.4).
-    void add_triangle(uint32_t a, uint32_t b, uint32_t c) {
-        triangles_.push_back(mirrored_ ? Vec3u(a, c, b) : Vec3u(a, b, c));
+    void put_triangle(size_t at, uint32_t a, uint32_t b, uint32_t c) {
+        triangles_[at] = mirrored_ ? Vec3u(a, c, b) : Vec3u(a, b, c);
     }
 
-    void add_sphere(const Vec3& center, uint32_t source) {
-        const auto first = static_cast<uint32_t>(positions_.size());
-        for (const Vec3& normal : detail_.sphere.normals)
-            add_vertex(center, glm::dvec3(normal), source);
+    void put_sphere(const Vec3& center, uint32_t source, size_t vertex, size_t triangle) {
+        const auto first = static_cast<uint32_t>(vertex);
+        for (const Offset& offset : sphere_)
+            put_vertex(vertex++, center, offset, source);
         for (const Vec3u& t : detail_.sphere.triangles)
-            add_triangle(first + t.x, first + t.y, first + t.z);
+            put_triangle(triangle++, first + t.x, first + t.y, first + t.z);
     }
 
-    void add_tube(const Vec3& a, uint32_t source_a, const Vec3& b, uint32_t source_b) {
-        const glm::dvec3 along = world_from_object_ * (glm::dvec3(b) - glm::dvec3(a));
-        const double length = glm::length(along);
-        if (!(length > 0.0) || !std::isfinite(length)) return;
-        const glm::dvec3 d = along / length;
+    void put_tube(const std::vector<Vec3>& positions, const Vec3u& stroke, size_t vertex, size_t triangle) {
+        const glm::dvec3 along = axis_of(positions, stroke);
+        const glm::dvec3 d = along / glm::length(along);
         const glm::dvec3 axis = std::abs(d.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
         const glm::dvec3 u = glm::normalize(axis - d * glm::dot(d, axis)), v = glm::cross(d, u);
-        const auto first = static_cast<uint32_t>(positions_.size());
-        const uint32_t sides = detail_.sides;
-        for (uint32_t i = 0; i < sides; ++i) {
-            const double angle = 2.0 * 3.14159265358979323846 * i / sides;
-            const glm::dvec3 normal = std::cos(angle) * u + std::sin(angle) * v;
-            add_vertex(a, normal, source_a);
-            add_vertex(b, normal, source_b);
+        const auto first = static_cast<uint32_t>(vertex);
+        for (const auto& [cosine, sine] : sides_) {
+            const Offset offset = relative(cosine * u + sine * v);
+            put_vertex(vertex++, positions[stroke.x], offset, stroke.x);
+            put_vertex(vertex++, positions[stroke.y], offset, stroke.y);
         }
+        const auto sides = static_cast<uint32_t>(sides_.size());
         for (uint32_t i = 0; i < sides; ++i) {
             const uint32_t a0 = first + 2 * i, a1 = first + 2 * ((i + 1) % sides);
-            add_triangle(a0, a1, a0 + 1);
-            add_triangle(a1, a1 + 1, a0 + 1);
+            put_triangle(triangle++, a0, a1, a0 + 1);
+            put_triangle(triangle++, a1, a1 + 1, a0 + 1);
         }
     }
 
@@ -207,6 +251,8 @@ class BodyMaker {
     double radius_;
     glm::dmat3 world_from_object_, object_from_world_, object_from_normal_;
     bool mirrored_;
+    std::vector<Offset> sphere_;
+    std::vector<std::pair<double, double>> sides_;  // cosine and sine
     std::vector<Vec3> positions_, normals_;
     std::vector<Vec3u> triangles_;
     std::vector<uint32_t> sources_;

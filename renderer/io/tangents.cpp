@@ -8,6 +8,9 @@
 #include <numeric>
 #include <unordered_map>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include "renderer/math/hash.h"
 #include "renderer/scene/deform.h"
 
@@ -25,6 +28,15 @@ bool normalize_or_zero(Vec3& v) {
     const float length = glm::length(v);
     v = length > 0.0f && std::isfinite(length) ? v / length : Vec3(0);
     return length > 0.0f;
+}
+
+// Calls work(i) for 0 … count - 1, some thousands at a time on all cores.
+template <typename Work>
+void for_each_index(size_t count, const Work& work) {
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, count, 4096), [&](const tbb::blocked_range<size_t>& range) {
+        for (size_t i = range.begin(); i != range.end(); ++i)
+            work(i);
+    });
 }
 
 class TangentBuilder {
@@ -64,7 +76,7 @@ void TangentBuilder::make_faces() {
     const size_t count = primitive_.triangles.size();
     faces_.resize(count);
     face_normals_.resize(count);
-    for (size_t t = 0; t < count; ++t) {
+    for_each_index(count, [&](size_t t) {
         const Vec3 d1 = position(3 * t + 1) - position(3 * t);
         const Vec3 d2 = position(3 * t + 2) - position(3 * t);
         face_normals_[t] = glm::cross(d1, d2);
@@ -74,10 +86,10 @@ void TangentBuilder::make_faces() {
         const float signed_area = t1.x * t2.y - t1.y * t2.x;
         Face& face = faces_[t];
         face.keeps_orientation = signed_area > 0.0f;
-        if (signed_area == 0.0f || !std::isfinite(signed_area)) continue;
+        if (signed_area == 0.0f || !std::isfinite(signed_area)) return;
         face.tangent = (d1 * t2.y - d2 * t1.y) * (face.keeps_orientation ? 1.0f : -1.0f);
         face.any_orientation = !normalize_or_zero(face.tangent);
-    }
+    });
 }
 
 bool TangentBuilder::same_vertex(size_t a, size_t b) const {
@@ -100,15 +112,24 @@ uint32_t TangentBuilder::hash_of(size_t corner) const {
 void TangentBuilder::weld_corners() {
     const size_t corners = 3 * primitive_.triangles.size();
     welded_.resize(corners);
-    const size_t slots = std::bit_ceil(2 * corners + 1);
     constexpr uint32_t empty = 0xffffffffu;
+    // Corners of one vertex are alike, unless each face has a normal of its own: then each corner is looked for.
+    const bool by_vertex = !primitive_.normals.empty();
+    const size_t entries = by_vertex ? std::min(primitive_.positions.size(), corners) : corners;
+    const size_t slots = std::bit_ceil(2 * entries + 1);
     std::vector<uint32_t> table(slots, empty);
+    std::vector<uint32_t> of_vertex(by_vertex ? primitive_.positions.size() : 0, empty);
     for (size_t corner = 0; corner < corners; ++corner) {
+        if (by_vertex && of_vertex[vertex(corner)] != empty) {
+            welded_[corner] = of_vertex[vertex(corner)];
+            continue;
+        }
         size_t slot = hash_of(corner) & (slots - 1);
         while (table[slot] != empty && !same_vertex(table[slot], corner))
             slot = (slot + 1) & (slots - 1);
         if (table[slot] == empty) table[slot] = static_cast<uint32_t>(corner);
         welded_[corner] = table[slot];
+        if (by_vertex) of_vertex[vertex(corner)] = table[slot];
     }
 }
 
@@ -128,26 +149,37 @@ void TangentBuilder::join(size_t a, size_t b) {
 
 void TangentBuilder::join_across_edges() {
     struct Edge {
-        uint64_t key;     // both welded ends, the smaller first
+        uint32_t other;   // the larger of both welded ends
         uint32_t corner;  // where it starts
-        bool operator<(const Edge& o) const { return key != o.key ? key < o.key : corner < o.corner; }
+        bool operator<(const Edge& o) const { return other != o.other ? other < o.other : corner < o.corner; }
     };
     const auto next = [](uint32_t corner) { return corner - corner % 3 + (corner % 3 + 1) % 3; };
-    parent_.resize(welded_.size());
+    const auto corners = static_cast<uint32_t>(welded_.size());
+    parent_.resize(corners);
     std::iota(parent_.begin(), parent_.end(), 0u);
-    std::vector<Edge> edges;
-    edges.reserve(welded_.size());
-    for (uint32_t corner = 0; corner < welded_.size(); ++corner) {
-        const uint64_t a = welded_[corner], b = welded_[next(corner)];
-        if (a != b) edges.push_back({std::min(a, b) << 32 | std::max(a, b), corner});
+
+    // The edges of each smaller end lie together, in the order of the larger ones and then of their corners.
+    std::vector<uint32_t> first(size_t{corners} + 1, 0);
+    const auto smaller_end = [&](uint32_t corner) { return std::min(welded_[corner], welded_[next(corner)]); };
+    const auto is_edge = [&](uint32_t corner) { return welded_[corner] != welded_[next(corner)]; };
+    for (uint32_t corner = 0; corner < corners; ++corner) {
+        if (is_edge(corner)) ++first[smaller_end(corner) + 1];
     }
-    std::sort(edges.begin(), edges.end());
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<Edge> edges(first.back());
+    std::vector<uint32_t> fill(first.begin(), first.end() - 1);
+    for (uint32_t corner = 0; corner < corners; ++corner) {
+        if (!is_edge(corner)) continue;
+        edges[fill[smaller_end(corner)]++] = {std::max(welded_[corner], welded_[next(corner)]), corner};
+    }
+    for_each_index(corners, [&](size_t end) { std::sort(edges.begin() + first[end], edges.begin() + first[end + 1]); });
 
     // Each edge is shared with the first one that runs the other way and is still free.
     std::vector<bool> taken(edges.size(), false);
     for (size_t i = 0; i < edges.size(); ++i) {
         if (taken[i]) continue;
-        for (size_t k = i + 1; k < edges.size() && edges[k].key == edges[i].key; ++k) {
+        const size_t end = first[smaller_end(edges[i].corner) + 1];
+        for (size_t k = i + 1; k < end && edges[k].other == edges[i].other; ++k) {
             const uint32_t a = edges[i].corner, b = edges[k].corner;
             if (taken[k] || welded_[a] == welded_[b]) continue;
             taken[i] = taken[k] = true;
@@ -164,13 +196,12 @@ void TangentBuilder::join_across_edges() {
 }
 
 void TangentBuilder::accumulate() {
+    // The face's tangent and the edges at each corner, seen in the plane of the vertex normal.
     const size_t corners = welded_.size();
-    std::vector<Vec3> sums(corners, Vec3(0));
-    std::vector<int8_t> keeps(corners, -1);
-    for (size_t corner = 0; corner < corners; ++corner) {
+    std::vector<Vec3> shares(corners, Vec3(0));
+    for_each_index(corners, [&](size_t corner) {
         const Face& face = faces_[corner / 3];
-        if (face.any_orientation) continue;
-        // The face's tangent and the edges at this corner, seen in the plane of the vertex normal.
+        if (face.any_orientation) return;
         const Vec3 n = normal(corner);
         const auto flatten = [&](Vec3 v) {
             v -= glm::dot(n, v) * n;
@@ -181,19 +212,29 @@ void TangentBuilder::accumulate() {
         const Vec3 to_next = flatten(position(first + (corner + 1 - first) % 3) - position(corner));
         const Vec3 to_last = flatten(position(first + (corner + 2 - first) % 3) - position(corner));
         const float angle = std::acos(std::clamp(glm::dot(to_next, to_last), -1.0f, 1.0f));
+        shares[corner] = angle * flatten(face.tangent);
+    });
+    std::vector<Vec3> sums(corners, Vec3(0));
+    std::vector<int8_t> keeps(corners, -1);
+    for (size_t corner = 0; corner < corners; ++corner) {
+        const Face& face = faces_[corner / 3];
+        if (face.any_orientation) continue;
         const uint32_t root = find(static_cast<uint32_t>(corner));
-        sums[root] += angle * flatten(face.tangent);
+        sums[root] += shares[corner];
         keeps[root] = face.keeps_orientation ? 1 : 0;
     }
+    shares = {};
     // Faces without a tangent of their own borrow from another group at the same vertex.
     std::vector<uint32_t> lender(corners, 0xffffffffu);
+    std::vector<uint32_t> source(corners);
     for (uint32_t corner = 0; corner < corners; ++corner) {
-        const uint32_t root = find(corner);
-        if (keeps[root] >= 0 && lender[welded_[corner]] == 0xffffffffu) lender[welded_[corner]] = root;
+        source[corner] = find(corner);
+        if (keeps[source[corner]] >= 0 && lender[welded_[corner]] == 0xffffffffu)
+            lender[welded_[corner]] = source[corner];
     }
     tangents_.resize(corners);
-    for (uint32_t corner = 0; corner < corners; ++corner) {
-        uint32_t root = find(corner);
+    for_each_index(corners, [&](size_t corner) {
+        uint32_t root = source[corner];
         if (keeps[root] < 0 && lender[welded_[corner]] != 0xffffffffu) root = lender[welded_[corner]];
         const Vec3 n = normal(corner);
         Vec3 t = sums[root] - glm::dot(n, sums[root]) * n;
@@ -204,7 +245,7 @@ void TangentBuilder::accumulate() {
         }
         // glTF's v runs down the picture: a texture that keeps its orientation there is mirrored in MikkTSpace's sense.
         tangents_[corner] = Vec4(t, keeps[root] == 1 ? -1.0f : 1.0f);
-    }
+    });
 }
 
 void TangentBuilder::write_back() {

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/world/emissive.h"
 
+#include <array>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 namespace candela {
 
 namespace {
@@ -116,58 +121,77 @@ void append_emissive_triangles(const World& world, uint32_t surface_index, Surfa
     if (material.emissive.valid() && !primitive.uv[material.emissive.uv_set & 1u].empty()) {
         uv = &primitive.uv[material.emissive.uv_set & 1u];
     }
+    const auto count = static_cast<uint32_t>(primitive.triangles.size());
+    const auto corners_of = [&](uint32_t triangle) {
+        const Vec3u index = front_order(world, surface, triangle);
+        return std::array<Vec2, 3>{(*uv)[index.x], (*uv)[index.y], (*uv)[index.z]};
+    };
 
+    // Each triangle as a whole, and how finely it should be cut.
+    std::vector<EmissiveTriangle> wholes(count);
+    std::vector<uint32_t> cuts(count, 1);
+    tbb::parallel_for(tbb::blocked_range<uint32_t>(0, count, 64), [&](const tbb::blocked_range<uint32_t>& range) {
+        for (uint32_t t = range.begin(); t != range.end(); ++t) {
+            wholes[t] = place_triangle(world, surface_index, surface, t);
+            wholes[t].mean_radiance = luminance(factor);
+            if (uv == nullptr) continue;
+            // A triangle must stay reachable as long as a texel of it may shine: the grid can miss some, so its choice
+            // never falls below a hundredth of the factor's unless the grid saw every texel black.
+            const TextureView& texture = world.textures[material.emissive.texture.value];
+            const std::array<Vec2, 3> corners = corners_of(t);
+            const TextureMean mean = mean_over_triangle(texture, material.emissive, factor, corners.data());
+            wholes[t].mean_radiance = std::max(mean.mean, 0.01f * std::max(mean.largest, 0.01f * luminance(factor)));
+            if (!(mean.largest > 2.0f * mean.smallest)) continue;
+            const int texels = texels_along(texture, material.emissive, corners.data());
+            cuts[t] = static_cast<uint32_t>(std::min(2 * texels, most_cells_per_edge));
+        }
+    });
+
+    // The cells follow one another, as long as there are not too many.
     surface.first_emissive = static_cast<uint32_t>(out.cells.size());
-    out.cells.reserve(out.cells.size() + primitive.triangles.size());
-    out.triangles.reserve(out.triangles.size() + primitive.triangles.size());
-    for (uint32_t t = 0; t < primitive.triangles.size(); ++t) {
-        EmissiveTriangle whole = place_triangle(world, surface_index, surface, t);
-        whole.mean_radiance = luminance(factor);
-        EmissiveCells cells{static_cast<uint32_t>(out.triangles.size()), 1};
-        if (uv == nullptr) {
-            out.triangles.push_back(whole);
-            out.cells.push_back(cells);
-            continue;
-        }
+    out.cells.reserve(out.cells.size() + count);
+    size_t cells = out.triangles.size();
+    for (uint32_t t = 0; t < count; ++t) {
+        if (cuts[t] > 1 && cells + size_t{cuts[t]} * cuts[t] > most_cells) cuts[t] = 1;
+        out.cells.push_back({static_cast<uint32_t>(cells), cuts[t]});
+        cells += size_t{cuts[t]} * cuts[t];
+    }
+    out.triangles.resize(cells);
 
-        // A triangle must stay reachable as long as a texel of it may shine: the grid can miss some, so its choice
-        // never falls below a hundredth of the factor's unless the grid saw every texel black.
-        const TextureView& texture = world.textures[material.emissive.texture.value];
-        const Vec3u index = front_order(world, surface, t);
-        const Vec2 corners[3] = {(*uv)[index.x], (*uv)[index.y], (*uv)[index.z]};
-        const TextureMean mean = mean_over_triangle(texture, material.emissive, factor, corners);
-        whole.mean_radiance = std::max(mean.mean, 0.01f * std::max(mean.largest, 0.01f * luminance(factor)));
-
-        // Cut it where the emission varies, and give each cell its own mean, but a share that keeps it reachable.
-        const bool uneven = mean.largest > 2.0f * mean.smallest;
-        const int n = uneven ? std::min(2 * texels_along(texture, material.emissive, corners), most_cells_per_edge) : 1;
-        if (n == 1 || out.triangles.size() + static_cast<size_t>(n * n) > most_cells) {
-            out.triangles.push_back(whole);
-            out.cells.push_back(cells);
-            continue;
-        }
-        cells.cells_per_edge = static_cast<uint32_t>(n);
-        out.cells.push_back(cells);
-        const float width = 1.0f / static_cast<float>(n);
-        const auto add_cell = [&](const Vec2& corner, float scale) {
-            EmissiveTriangle cell = cut_cell(whole, corner, scale);
-            const auto uv_at = [&](float u, float v) {
-                return (1.0f - u - v) * corners[0] + u * corners[1] + v * corners[2];
+    // Each cell has its own mean, but a share that keeps it reachable.
+    const uint32_t first = surface.first_emissive;
+    tbb::parallel_for(tbb::blocked_range<uint32_t>(0, count, 16), [&](const tbb::blocked_range<uint32_t>& range) {
+        for (uint32_t t = range.begin(); t != range.end(); ++t) {
+            const EmissiveTriangle& whole = wholes[t];
+            EmissiveTriangle* next = &out.triangles[out.cells[first + t].first];
+            if (cuts[t] == 1) {
+                *next = whole;
+                continue;
+            }
+            const TextureView& texture = world.textures[material.emissive.texture.value];
+            const std::array<Vec2, 3> corners = corners_of(t);
+            const auto n = static_cast<int>(cuts[t]);
+            const float width = 1.0f / static_cast<float>(n);
+            const auto add_cell = [&](const Vec2& corner, float scale) {
+                *next = cut_cell(whole, corner, scale);
+                const auto uv_at = [&](float u, float v) {
+                    return (1.0f - u - v) * corners[0] + u * corners[1] + v * corners[2];
+                };
+                const Vec2 cell_uv[3] = {uv_at(corner.x, corner.y), uv_at(corner.x + scale, corner.y),
+                                         uv_at(corner.x, corner.y + scale)};
+                const float shines = mean_over_triangle(texture, material.emissive, factor, cell_uv).mean;
+                next->mean_radiance = std::max(shines, 0.05f * whole.mean_radiance);
+                ++next;
             };
-            const Vec2 cell_uv[3] = {uv_at(corner.x, corner.y), uv_at(corner.x + scale, corner.y),
-                                     uv_at(corner.x, corner.y + scale)};
-            const float shines = mean_over_triangle(texture, material.emissive, factor, cell_uv).mean;
-            cell.mean_radiance = std::max(shines, 0.05f * whole.mean_radiance);
-            out.triangles.push_back(cell);
-        };
-        for (int i = 0; i < n; ++i) {
-            for (int j = 0; i + j < n; ++j) {
-                const Vec2 corner = width * Vec2(i, j);
-                add_cell(corner, width);
-                if (i + j < n - 1) add_cell(corner + width, -width);
+            for (int i = 0; i < n; ++i) {
+                for (int j = 0; i + j < n; ++j) {
+                    const Vec2 corner = width * Vec2(i, j);
+                    add_cell(corner, width);
+                    if (i + j < n - 1) add_cell(corner + width, -width);
+                }
             }
         }
-    }
+    });
 }
 
 bool move_emissive_triangles(const World& before, const World& world, uint32_t surface_index, Surface& surface,

@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <numeric>
+#include <unordered_map>
 
 namespace candela {
 
@@ -27,6 +28,21 @@ std::string body_name(const World& world, const Surface& surface) {
     const std::string& name = node.valid() ? scene.nodes[node.value].name : std::string();
     return name.empty() ? "/nodes/" + std::to_string(node.value) : "\"" + name + "\"";
 }
+
+// Its corners in units of a fine grid, sorted.
+using TriangleOnGrid = std::array<std::array<int64_t, 3>, 3>;
+
+struct HashOfTriangle {
+    size_t operator()(const TriangleOnGrid& triangle) const {
+        uint64_t hash = 0;
+        for (const std::array<int64_t, 3>& corner : triangle) {
+            for (const int64_t value : corner)
+                hash = (hash ^ static_cast<uint64_t>(value)) * 0x9e3779b97f4a7c15u;
+            hash ^= hash >> 29;
+        }
+        return static_cast<size_t>(hash ^ hash >> 32);
+    }
+};
 
 }  // namespace
 
@@ -74,18 +90,18 @@ void warn_of_shared_faces(World& world) {
     }
     if (world.media.size() < 2 || triangles > most_triangles) return;
     const float grid = std::max(world.bounds.radius(), 1e-30f) * 1e-6f;
-    using Corner = std::array<int64_t, 3>;
-    std::map<std::array<Corner, 3>, uint32_t> owners;  // triangle → surface
+    std::unordered_map<TriangleOnGrid, uint32_t, HashOfTriangle> owners;  // to its surface
+    owners.reserve(triangles);
     std::map<std::pair<uint32_t, uint32_t>, bool> warned;
     for (uint32_t s = 0; s < world.surfaces.size(); ++s) {
         const Surface& surface = world.surfaces[s];
         if (surface.medium == invalid_index) continue;
         for (const Vec3u& triangle : surface.primitive->triangles) {
-            std::array<Corner, 3> corners;
+            TriangleOnGrid corners;
             for (int c = 0; c < 3; ++c) {
                 const Vec3 p = world_position(world, surface, triangle[c]) / grid;
                 for (int i = 0; i < 3; ++i)
-                    corners[static_cast<size_t>(c)][static_cast<size_t>(i)] = std::llround(p[i]);
+                    corners[static_cast<size_t>(c)][static_cast<size_t>(i)] = static_cast<int64_t>(std::round(p[i]));
             }
             std::sort(corners.begin(), corners.end());
             const auto [owner, is_new] = owners.emplace(corners, s);

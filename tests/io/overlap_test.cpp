@@ -132,5 +132,81 @@ TEST_F(Overlap, WhereMemoryRunsShortDependsOnTheFileAlone) {
     EXPECT_EQ(seen.size(), 5u) << "none to all of the images";
 }
 
+// Primitives are read several at a time.
+class ManyPrimitives : public GltfTest {
+  protected:
+    static constexpr int count = 40;
+    // Each with positions of its own, so that values of one can be broken.
+    static Document document(const std::set<int>& with_strange_normals, const std::set<int>& with_wrong_indices) {
+        Document document;
+        for (int i = 0; i < count; ++i) {
+            const auto x = static_cast<float>(i);
+            const int positions = document.add_accessor<float>({x, 0, 0, x + 1, 0, 0, x, 1, 0}, "VEC3", f32);
+            const float z = with_strange_normals.contains(i) ? 0.0f : 1.0f;
+            const int normals = document.add_accessor<float>({0, 0, z, 0, 0, 1, 0, 0, 1}, "VEC3", f32);
+            const auto last = static_cast<uint16_t>(with_wrong_indices.contains(i) ? 3 : 2);
+            const int indices = document.add_accessor<uint16_t>({0, 1, last}, "SCALAR", u16);
+            document.add_primitive({{"POSITION", positions}, {"NORMAL", normals}}, indices);
+        }
+        Json& meshes = document.json["meshes"];
+        for (int i = 1; i < count; ++i)
+            meshes[0]["primitives"].push_back(meshes[static_cast<size_t>(i)]["primitives"][0]);
+        meshes.erase(meshes.begin() + 1, meshes.end());
+        return document;
+    }
+};
+
+TEST_F(ManyPrimitives, ComeInTheOrderOfTheFile) {
+    const Scene scene = load(document({3, 30, 31}, {}));
+    ASSERT_EQ(scene.mesh({0}).primitives.size(), size_t{count});
+    for (size_t i = 0; i < count; ++i)
+        EXPECT_EQ(scene.mesh({0}).primitives[i].positions[0].x, static_cast<float>(i));
+    ASSERT_EQ(diagnostics_.warnings().size(), 3u);
+    EXPECT_EQ(diagnostics_.warnings()[0].where, "/meshes/0/primitives/3/attributes/NORMAL");
+    EXPECT_EQ(diagnostics_.warnings()[2].where, "/meshes/0/primitives/31/attributes/NORMAL");
+}
+
+TEST_F(ManyPrimitives, FailAtTheFirstThatIsBroken) {
+    const Document broken = document({2, 35}, {9, 10, 22, 39});
+    for (int again = 0; again < 20; ++again) {
+        try {
+            load(broken);
+            FAIL() << "indices out of range";
+        } catch (const LoadError& error) {
+            ASSERT_EQ(error.where(), "/meshes/0/primitives/9/indices");
+        }
+        ASSERT_EQ(diagnostics_.warnings().size(), 1u);
+    }
+}
+
+// One after the other need less at a time, and what several could not get must not be missing then.
+TEST_F(ManyPrimitives, WhereMemoryRunsShortDependsOnTheFileAlone) {
+    Document source = document({}, {});
+    source.finish("data.bin");
+    write("data.bin", {source.bytes.begin(), source.bytes.end()});
+    const std::filesystem::path file = write("scene.gltf", source.json.dump());
+    const auto opens = [&](uint64_t limit) {
+        options_.max_memory_bytes = limit;
+        try {
+            load_file(file);
+            return std::string();
+        } catch (const LoadError& error) {
+            return std::string(error.what());
+        }
+    };
+    uint64_t low = 1000, high = 4'000'000;
+    ASSERT_EQ(opens(high), "");
+    while (high - low > 1) {
+        const uint64_t middle = (low + high) / 2;
+        (opens(middle).empty() ? high : low) = middle;
+    }
+    for (const uint64_t limit : {low - 50, low, high, high + 1, high + 50}) {
+        const std::string first = opens(limit);
+        EXPECT_EQ(first.empty(), limit >= high);
+        for (int again = 0; again < 10; ++again)
+            ASSERT_EQ(opens(limit), first) << limit;
+    }
+}
+
 }  // namespace
 }  // namespace candela
