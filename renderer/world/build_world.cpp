@@ -80,7 +80,7 @@ std::shared_ptr<World> compile(std::shared_ptr<const Scene> scene_pointer, const
         const TransformKind kind = classify_transform(instance.world_from_object);
         if (kind == TransformKind::unusable) {
             world->warnings.push_back(instance_name(scene, instance) +
-                                      ": its transform is not finite or leaves no area, so it is not drawn");
+                                      ": its transform is not finite, leads too far away or leaves no area, so it is not drawn");
             continue;
         }
         const ShapeTable::Place place = table.place(instance, kind);

@@ -23,18 +23,20 @@ double max_abs(const glm::dmat3& m) {
 }  // namespace
 
 TransformKind classify_transform(const Mat4& world_from_object) {
+    // The accelerator knows no coordinates beyond about 1e18.
+    constexpr float farthest_m = 1e18f;
     for (int c = 0; c < 4; ++c) {
-        if (!is_finite(Vec3(world_from_object[c]))) return TransformKind::unusable;
+        const Vec3 column = glm::abs(Vec3(world_from_object[c]));
+        if (!(column.x < farthest_m && column.y < farthest_m && column.z < farthest_m)) return TransformKind::unusable;
     }
     const glm::dmat3 linear(world_from_object);
     const double scale = max_abs(linear);
-    // Below this the accelerator's single-precision inverse overflows or meets denormals.
-    constexpr double smallest_scale = 1e-11;
     constexpr double smallest_relative_determinant = 1e-7;
     if (!(max_abs(cofactor(linear)) > 1e-12 * scale * scale)) return TransformKind::unusable;
     const double relative_determinant = std::abs(glm::determinant(linear)) / (scale * scale * scale);
-    if (scale < smallest_scale || scale > 1.0 / smallest_scale) return TransformKind::flat;
-    return relative_determinant < smallest_relative_determinant ? TransformKind::flat : TransformKind::invertible;
+    const bool is_invertible =
+        relative_determinant >= smallest_relative_determinant && can_be_instanced(world_from_object);
+    return is_invertible ? TransformKind::invertible : TransformKind::flat;
 }
 
 SurfaceTransform make_surface_transform(const Mat4& world_from_object) {

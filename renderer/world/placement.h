@@ -8,8 +8,8 @@ namespace candela {
 
 enum class TransformKind : uint8_t {
     invertible,  // can be an instance of a shared BVH
-    flat,        // collapses one axis: still a visible sheet, but must be moved to world space
-    unusable     // not finite, or collapses the mesh to a line or a point
+    flat,        // collapses one axis, or as good as: still a visible sheet, but must be moved to world space
+    unusable     // not finite, too far away, or collapses the mesh to a line or a point
 };
 
 TransformKind classify_transform(const Mat4& world_from_object);

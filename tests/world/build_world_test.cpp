@@ -80,6 +80,21 @@ TEST(BuildWorld, FlatTransformStaysVisibleAndUnusableIsDropped) {
     EXPECT_FALSE(shoot(*world, Vec3(10, 5, 0), Vec3(0, -1, 0)).valid());
 }
 
+// What single precision cannot invert is no instance: it is moved to world space, or left out where that is no better.
+TEST(BuildWorld, PlacesBeyondReachOfInstancesDoNotStopTheWorld) {
+    Scene scene;
+    add_object(scene, test::make_sphere(Vec3(0), 1, 24, 12), add_lambert(scene, Vec3(0.5f)));
+    place_again(scene, glm::translate(Mat4(1), Vec3(1e16f, 0, 0)) * glm::scale(Mat4(1), Vec3(1e-4f)));
+    EXPECT_EQ(classify_transform(scene.instances.back().world_from_object), TransformKind::flat);
+    EXPECT_EQ(test::build(scene)->warnings.size(), 0u);
+    place_again(scene, glm::translate(Mat4(1), Vec3(0, -3e38f, 0)));
+    EXPECT_EQ(classify_transform(scene.instances.back().world_from_object), TransformKind::unusable);
+    place_again(scene, glm::scale(Mat4(1), Vec3(1e-13f)));
+    const auto world = test::build(std::move(scene));
+    EXPECT_EQ(world->warnings.size(), 1u);
+    EXPECT_TRUE(shoot(*world, Vec3(0.1f, 5, 0.1f), Vec3(0, -1, 0)).valid());
+}
+
 TEST(BuildWorld, EmissiveTrianglesLieOnTheirSurfaceAndFaceItsFront) {
     // A quad facing -y whose transform mirrors: the front stays where glTF's winding rule says.
     Scene scene;
