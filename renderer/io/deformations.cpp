@@ -17,7 +17,13 @@ class DeformationLoader {
     void load_influences(Deformation& out);
 
   private:
+    template <typename Vector>
+    std::vector<Vector> mended(std::vector<Vector> values, const std::string& where);
+    template <typename Action>
+    void with_attribute(const std::map<std::string, int>& target, const char* name, const std::string& place,
+                        const Action& action);
     std::vector<Vec3> differences(const std::map<std::string, int>& target, const char* name, const std::string& place);
+    std::vector<Vec4> color_differences(uint32_t accessor, const std::string& where);
     std::optional<uint32_t> attribute(const std::string& name) const;
     template <typename Element>
     void check_length(const std::vector<Element>& values, const std::string& place) const;
@@ -39,24 +45,46 @@ void DeformationLoader::check_length(const std::vector<Element>& values, const s
 }
 
 // Empty where the target does not change the attribute.
-std::vector<Vec3> DeformationLoader::differences(const std::map<std::string, int>& target, const char* name,
-                                                 const std::string& place) {
-    const auto found = target.find(name);
-    if (found == target.end()) return {};
-    const std::string where = place + "/" + name;
-    std::vector<Vec3> values = accessors_.read_vec3(static_cast<uint32_t>(found->second), where);
+template <typename Vector>
+std::vector<Vector> DeformationLoader::mended(std::vector<Vector> values, const std::string& where) {
     check_length(values, where);
     constexpr float largest = 1e9f;
     size_t bad = 0;
-    for (Vec3& value : values) {
-        if (std::abs(value.x) <= largest && std::abs(value.y) <= largest && std::abs(value.z) <= largest) continue;
-        value = Vec3(0);
+    for (Vector& value : values) {
+        if (glm::all(glm::lessThanEqual(glm::abs(value), Vector(largest)))) continue;
+        value = Vector(0);
         ++bad;
     }
     if (bad > 0) context_.warn(where, "holds values that are not finite or beyond 1e9; they are taken as 0");
     // The memory stays booked, or a file could have nothing read as often as it likes.
-    if (std::all_of(values.begin(), values.end(), [](const Vec3& v) { return v == Vec3(0); })) return {};
+    if (std::all_of(values.begin(), values.end(), [](const Vector& v) { return v == Vector(0); })) return {};
     return values;
+}
+
+template <typename Action>
+void DeformationLoader::with_attribute(const std::map<std::string, int>& target, const char* name,
+                                       const std::string& place, const Action& action) {
+    const auto found = target.find(name);
+    if (found != target.end()) action(static_cast<uint32_t>(found->second), place + "/" + name);
+}
+
+std::vector<Vec3> DeformationLoader::differences(const std::map<std::string, int>& target, const char* name,
+                                                 const std::string& place) {
+    std::vector<Vec3> out;
+    with_attribute(target, name, place, [&](uint32_t accessor, const std::string& where) {
+        out = mended(accessors_.read_vec3(accessor, where), where);
+    });
+    return out;
+}
+
+std::vector<Vec4> DeformationLoader::color_differences(uint32_t accessor, const std::string& where) {
+    std::vector<Vec4> values = accessors_.read_colors(accessor, where);
+    // Three components leave the fourth as it is.
+    if (accessors_.layout(accessor).rows == 3) {
+        for (Vec4& value : values)
+            value.a = 0.0f;
+    }
+    return mended(std::move(values), where);
 }
 
 void DeformationLoader::load_targets(Deformation& out) {
@@ -66,15 +94,29 @@ void DeformationLoader::load_targets(Deformation& out) {
         const std::map<std::string, int>& target = source_.targets[t];
         MorphTarget& morph = out.targets.emplace_back();
         morph.positions = differences(target, "POSITION", place);
-        // Flat normals follow from the positions, tangents that are not the file's from the shape as modelled, and
-        // those of points and lines from their bodies.
+        for (const auto& [set, name] : {std::pair{0, "TEXCOORD_0"}, std::pair{1, "TEXCOORD_1"}}) {
+            if (primitive_.uv[set].empty()) continue;
+            with_attribute(target, name, place, [&](uint32_t accessor, const std::string& where) {
+                morph.uv[set] = mended(accessors_.read_vec2(accessor, where), where);
+            });
+        }
+        if (!primitive_.colors.empty()) {
+            with_attribute(target, "COLOR_0", place, [&](uint32_t accessor, const std::string& where) {
+                morph.colors = color_differences(accessor, where);
+            });
+        }
+        for (const auto& [name, accessor] : target) {
+            const bool is_read = name == "POSITION" || name == "NORMAL" || name == "TANGENT" ||
+                                 (name == "TEXCOORD_0" && !primitive_.uv[0].empty()) ||
+                                 (name == "TEXCOORD_1" && !primitive_.uv[1].empty()) ||
+                                 (name == "COLOR_0" && !primitive_.colors.empty());
+            if (!is_read) context_.warn(place, "its differences of " + name.substr(0, 40) + " are ignored");
+        }
+        // Flat normals follow from the positions, tangents that are not the file's are made for each target, and those
+        // of points and lines come from their bodies.
         if (primitive_.shape != PrimitiveShape::surface) continue;
         if (!primitive_.normals.empty()) morph.normals = differences(target, "NORMAL", place);
         if (!primitive_.tangents.empty()) morph.tangents = differences(target, "TANGENT", place);
-        for (const auto& [name, accessor] : target) {
-            if (name == "POSITION" || name == "NORMAL" || name == "TANGENT") continue;
-            context_.warn(place, "its differences of " + name.substr(0, 40) + " are ignored");
-        }
     }
 }
 

@@ -14,6 +14,7 @@
 #include "renderer/io/tinygltf.h"
 #include "renderer/io/topology.h"
 #include "renderer/io/variants.h"
+#include "renderer/scene/deform.h"
 
 namespace candela {
 namespace {
@@ -376,6 +377,8 @@ void generate_missing_tangents(LoadContext& context, const Scene& scene, std::ve
             if (!uv_set || primitive.uv[*uv_set].empty()) continue;
             // Vertices may be split, up to one per corner.
             context.charge(primitive.triangles.size() * 3, sizeof(Vec4), pointer_to("/meshes", m));
+            const size_t targets = primitive.deformation ? primitive.deformation->targets.size() : 0;
+            context.charge(primitive.triangles.size() * 3, targets * sizeof(Vec3), pointer_to("/meshes", m));
             missing.emplace_back(&primitive, *uv_set);
         }
     }

@@ -44,6 +44,8 @@ class TangentBuilder {
     TangentBuilder(Primitive& primitive, uint32_t uv_set) : primitive_(primitive), uv_(primitive.uv[uv_set]) {}
 
     void run();
+    // Of every vertex the mean over its corners, unit, with nothing written to the primitive.
+    std::vector<Vec3> mean_tangents();
 
   private:
     uint32_t vertex(size_t corner) const { return primitive_.triangles[corner / 3][static_cast<int>(corner % 3)]; }
@@ -52,6 +54,7 @@ class TangentBuilder {
         return primitive_.normals.empty() ? face_normals_[corner / 3] : primitive_.normals[vertex(corner)];
     }
 
+    void make_tangents();
     void make_faces();
     void weld_corners();
     void join_across_edges();
@@ -288,17 +291,62 @@ void TangentBuilder::write_back() {
 }
 
 void TangentBuilder::run() {
+    make_tangents();
+    write_back();
+}
+
+void TangentBuilder::make_tangents() {
     make_faces();
     weld_corners();
     join_across_edges();
     accumulate();
-    write_back();
+}
+
+std::vector<Vec3> TangentBuilder::mean_tangents() {
+    make_tangents();
+    std::vector<Vec3> out(primitive_.positions.size(), Vec3(0));
+    for (size_t corner = 0; corner < tangents_.size(); ++corner)
+        out[vertex(corner)] += Vec3(tangents_[corner]);
+    for (Vec3& tangent : out)
+        normalize_or_zero(tangent);
+    return out;
+}
+
+template <typename Vector>
+void add(std::vector<Vector>& values, const std::vector<Vector>& differences) {
+    for (size_t i = 0; i < std::min(values.size(), differences.size()); ++i)
+        values[i] += differences[i];
+}
+
+// What the tangents of the mesh become where the target has moved all the way, less what they are.
+std::vector<Vec3> tangent_differences(const Primitive& primitive, const MorphTarget& target, uint32_t uv_set) {
+    if (target.positions.empty() && target.normals.empty() && target.uv[uv_set].empty()) return {};
+    Primitive moved;
+    moved.positions = primitive.positions;
+    moved.normals = primitive.normals;
+    moved.uv[uv_set] = primitive.uv[uv_set];
+    moved.triangles = primitive.triangles;
+    add(moved.positions, target.positions);
+    add(moved.normals, target.normals);
+    add(moved.uv[uv_set], target.uv[uv_set]);
+    for (size_t i = 0; i < moved.normals.size(); ++i) {
+        if (!normalize_or_zero(moved.normals[i])) moved.normals[i] = primitive.normals[i];
+    }
+    std::vector<Vec3> out = TangentBuilder(moved, uv_set).mean_tangents();
+    for (size_t i = 0; i < out.size(); ++i)
+        out[i] = out[i] == Vec3(0) ? Vec3(0) : out[i] - Vec3(primitive.tangents[i]);
+    return out;
 }
 
 }  // namespace
 
 void generate_tangents(Primitive& primitive, uint32_t uv_set) {
     TangentBuilder(primitive, uv_set).run();
+    if (!primitive.deformation || primitive.deformation->targets.empty()) return;
+    auto deformation = std::make_shared<Deformation>(*primitive.deformation);
+    for (MorphTarget& target : deformation->targets)
+        target.tangents = tangent_differences(primitive, target, uv_set);
+    primitive.deformation = std::move(deformation);
 }
 
 }  // namespace candela

@@ -17,7 +17,8 @@ Mat3 cofactors(const Mat3& m) {
     return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
 
-void add_scaled(std::vector<Vec3>& values, const std::vector<Vec3>& deltas, float weight) {
+template <typename Vector>
+void add_scaled(std::vector<Vector>& values, const std::vector<Vector>& deltas, float weight) {
     for (size_t i = 0; i < std::min(values.size(), deltas.size()); ++i)
         values[i] += weight * deltas[i];
 }
@@ -29,12 +30,20 @@ void add_scaled(std::vector<Vec4>& values, const std::vector<Vec3>& deltas, floa
 
 // Base + sum of weight times difference (glTF 2.0, section 3.7.2.2).
 void morph(const Deformation& deformation, std::span<const float> weights, Primitive& out) {
+    bool colors_move = false;
     for (size_t t = 0; t < std::min(weights.size(), deformation.targets.size()); ++t) {
         if (weights[t] == 0.0f) continue;
         add_scaled(out.positions, deformation.targets[t].positions, weights[t]);
         add_scaled(out.normals, deformation.targets[t].normals, weights[t]);
         add_scaled(out.tangents, deformation.targets[t].tangents, weights[t]);
+        for (int set = 0; set < 2; ++set)
+            add_scaled(out.uv[set], deformation.targets[t].uv[set], weights[t]);
+        add_scaled(out.colors, deformation.targets[t].colors, weights[t]);
+        colors_move = colors_move || !deformation.targets[t].colors.empty();
     }
+    // Colours stay in their range (section 3.7.2.2).
+    for (size_t i = 0; colors_move && i < out.colors.size(); ++i)
+        out.colors[i] = glm::clamp(out.colors[i], 0.0f, 1.0f);
 }
 
 // Moves vertices by one affine map each, and turns over the triangles that the maps mirror: glTF wants their winding
@@ -94,12 +103,23 @@ void move_all(const Mat4& world_from_mesh, Primitive& out) {
     mover.turn_mirrored_triangles();
 }
 
+// Sums of large differences may leave the range of floats: such values stay as modelled.
+template <typename Vector>
+void keep_finite(const std::vector<Vector>& source, std::vector<Vector>& values) {
+    for (size_t i = 0; i < values.size(); ++i) {
+        if (glm::any(glm::isnan(values[i])) || glm::any(glm::isinf(values[i]))) values[i] = source[i];
+    }
+}
+
 // Normals and tangents of unit length; false where a position is out of bounds.
 bool finish(const Primitive& source, Primitive& out) {
     for (size_t i = 0; i < out.normals.size(); ++i)
         out.normals[i] = unit_or(out.normals[i], source.normals[i]);
     for (size_t i = 0; i < out.tangents.size(); ++i)
         out.tangents[i] = Vec4(unit_or(Vec3(out.tangents[i]), Vec3(source.tangents[i])), out.tangents[i].w);
+    for (int set = 0; set < 2; ++set)
+        keep_finite(source.uv[set], out.uv[set]);
+    keep_finite(source.colors, out.colors);
     return std::all_of(out.positions.begin(), out.positions.end(), [](const Vec3& p) {
         return std::abs(p.x) <= farthest_m && std::abs(p.y) <= farthest_m && std::abs(p.z) <= farthest_m;
     });
@@ -123,8 +143,11 @@ Deformation gather_vertices(const Deformation& deformation, std::span<const uint
     Deformation out;
     out.targets.reserve(deformation.targets.size());
     for (const MorphTarget& target : deformation.targets) {
-        out.targets.push_back(
-            {gather(target.positions, from), gather(target.normals, from), gather(target.tangents, from)});
+        out.targets.push_back({gather(target.positions, from),
+                               gather(target.normals, from),
+                               gather(target.tangents, from),
+                               {gather(target.uv[0], from), gather(target.uv[1], from)},
+                               gather(target.colors, from)});
     }
     out.influences_per_vertex = deformation.influences_per_vertex;
     out.joints = gather(deformation.joints, from, deformation.influences_per_vertex);

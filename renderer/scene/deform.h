@@ -13,6 +13,8 @@ namespace candela {
 // Differences to the mesh as modelled; each array is empty (no difference) or as long as the primitive's positions.
 struct MorphTarget {
     std::vector<Vec3> positions, normals, tangents;
+    std::vector<Vec2> uv[2] = {};
+    std::vector<Vec4> colors = {};
 };
 
 struct Deformation {

@@ -298,6 +298,34 @@ TEST_F(Animations, DeformationsFollowTheirVertices) {
     }
 }
 
+// Three components leave opacity alone; what the mesh has not itself is said to be ignored.
+TEST_F(Animations, MorphTargetsOfTextureCoordinatesAndColours) {
+    Document document;
+    const int positions = document.add_accessor<float>({9, 9, 9, 0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", f32);
+    const int uv = document.add_accessor<float>({9, 9, 0, 0, 1, 0, 0, 1}, "VEC2", f32);
+    const int uv_deltas = document.add_accessor<float>({9, 9, 0.5f, 0, 0, 0, 0, 0.25f}, "VEC2", f32);
+    const int colors = document.add_accessor<uint8_t>({0, 0, 0, 0, 255, 0, 0, 51, 0, 255, 0, 255, 0, 0, 255, 255},
+                                                      "VEC4", u8, {{"normalized", true}});
+    const int color_deltas = document.add_accessor<int8_t>({9, 9, 9, 0, -127, 127, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
+                                                           "VEC3", i8, {{"normalized", true}, {"count", 4}});
+    document.json["bufferViews"].back()["byteStride"] = 4;
+    const int indices = document.add_accessor<uint16_t>({1, 2, 3}, "SCALAR", u16);
+    document.add_primitive({{"POSITION", positions}, {"TEXCOORD_0", uv}, {"COLOR_0", colors}}, indices,
+                           {{"targets", {{{"TEXCOORD_0", uv_deltas}, {"COLOR_0", color_deltas}, {"TEXCOORD_1", uv}}}}});
+    document.json["meshes"][0]["weights"] = {1};
+    const Primitive shape = shown(document);
+    EXPECT_EQ(shape.uv[0], (std::vector<Vec2>{Vec2(0.5f, 0), Vec2(1, 0), Vec2(0, 1.25f)}));
+    EXPECT_EQ(shape.colors.at(0), Vec4(0, 1, 0, 0.2f));
+    EXPECT_EQ(shape.colors.at(1), Vec4(0, 1, 0, 1));
+    EXPECT_TRUE(warned("/meshes/0/primitives/0/targets/0", "its differences of TEXCOORD_1 are ignored"))
+        << all_warnings();
+    document.json["meshes"][0]["primitives"][0]["targets"][0]["TEXCOORD_0"] = indices;
+    EXPECT_NE(failure(document).find("/meshes/0/primitives/0/targets/0/TEXCOORD_0: "), std::string::npos);
+    document.json["meshes"][0]["primitives"][0]["targets"][0]["TEXCOORD_0"] =
+        document.add_accessor<float>({1, 2}, "VEC2", f32);
+    EXPECT_EQ(failure(document), "/meshes/0/primitives/0/targets/0/TEXCOORD_0: has 1 elements, but POSITION has 4");
+}
+
 // The first vertex is dropped: the joints of the others stay theirs.
 TEST_F(Animations, InfluencesFollowTheirVertices) {
     Document document = skinned();

@@ -132,6 +132,30 @@ TEST(Pose, MorphTargetsBlendAndUnitNormalsStayUnit) {
     EXPECT_EQ(posed_scene(posed, 0, 5.0f)->meshes[2], posed->meshes[2]);
 }
 
+TEST(Pose, MorphTargetsMoveTextureCoordinatesAndColoursInTheirRange) {
+    Primitive primitive = triangle();
+    primitive.uv[0] = primitive.uv[1] = {Vec2(0), Vec2(1, 0), Vec2(0, 1)};
+    primitive.colors = {Vec4(0.5f), Vec4(1), Vec4(0.25f)};
+    Deformation deformation;
+    deformation.targets.resize(2);
+    deformation.targets[0].uv[1] = {Vec2(2, 4), Vec2(0), Vec2(0)};
+    deformation.targets[1].uv[0] = {Vec2(0), Vec2(0), Vec2(0.5f, -1)};
+    deformation.targets[1].colors = {Vec4(-1, 1, 0.25f, 0), Vec4(0, 0, 0, -0.5f), Vec4(0)};
+    primitive.deformation = std::make_shared<const Deformation>(std::move(deformation));
+    Scene scene = two_nodes(std::move(primitive), triangle());
+    scene.nodes[0].morph_weights = {0, 0};
+    animate(scene, {channel("/nodes/0/weights", {0, 1}, {0, 0, 0.5f, 1}, 2)});
+    const auto rest = at_rest(std::move(scene));
+    const auto posed = posed_scene(rest, 0, 1.0f);
+    const Primitive& shape = posed->mesh(posed->instances[0].mesh).primitives[0];
+    EXPECT_EQ(shape.uv[1][0], Vec2(1, 2));
+    EXPECT_EQ(shape.uv[1][1], Vec2(1, 0));
+    EXPECT_EQ(shape.uv[0][2], Vec2(0.5f, 0));
+    EXPECT_EQ(shape.colors[0], Vec4(0, 1, 0.75f, 0.5f));
+    EXPECT_EQ(shape.colors[1], Vec4(1, 1, 1, 0.5f));
+    EXPECT_EQ(shape.colors[2], Vec4(0.25f));
+}
+
 // A triangle on one joint, whose own node's transform must not matter.
 Scene skinned_triangle(const Mat4& world_from_joint, const Mat4& joint_from_mesh) {
     Primitive primitive = triangle();
