@@ -94,8 +94,9 @@ void DeformationLoader::load_targets(Deformation& out) {
         const std::map<std::string, int>& target = source_.targets[t];
         MorphTarget& morph = out.targets.emplace_back();
         morph.positions = differences(target, "POSITION", place);
-        for (const auto& [set, name] : {std::pair{0, "TEXCOORD_0"}, std::pair{1, "TEXCOORD_1"}}) {
+        for (size_t set = 0; set < 2; ++set) {
             if (primitive_.uv[set].empty()) continue;
+            const char* name = set == 0 ? "TEXCOORD_0" : "TEXCOORD_1";
             with_attribute(target, name, place, [&](uint32_t accessor, const std::string& where) {
                 morph.uv[set] = mended(accessors_.read_vec2(accessor, where), where);
             });
