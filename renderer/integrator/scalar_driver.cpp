@@ -9,7 +9,8 @@ RadianceSample trace_sample(const World& world, const View& view, const Integrat
     PathState path = begin_path(view, settings, sample);
     while (path.alive) {
         const Hit hit = extend(world, path, counts);
-        const ShadowRequest light = shade(world, settings, hit, path);
+        const VertexPoints u = draw_vertex(path);
+        const ShadowRequest light = shade(world, settings, hit, u, path);
         if (light.active) connect(world, light, path, counts);
     }
     return finish(path);

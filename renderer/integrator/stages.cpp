@@ -209,7 +209,30 @@ Hit extend(const World& world, const PathState& path, RayCounts& counts) noexcep
     return world.accel->intersect(path.ray, hash_combine(path.sampler.hash(), path.segments));
 }
 
-ShadowRequest shade(const World& world, const IntegratorSettings& settings, const Hit& hit, PathState& path) noexcept {
+void start_vertex(PathState& path) noexcept {
+    path.sampler.start_dimension(camera_dimensions + vertex_dimensions * path.segments);
+}
+
+VertexPoints draw_vertex(PathState& path) noexcept {
+    start_vertex(path);
+    VertexPoints out;
+    out.light = path.sampler.next_2d();
+    out.direction = path.sampler.next_2d();
+    const Vec2 choices = path.sampler.next_2d();
+    const Vec2 rare = path.sampler.next_2d();
+    out.light_choice = choices.x;
+    out.lobe_choice = choices.y;
+    out.roulette = rare.x;
+    out.wavelength = rare.y;
+    return out;
+}
+
+VertexPoints vertex_points(const PointBatch& batch, size_t i) noexcept {
+    return {batch.point(i, 0), batch.point(i, 1), batch.x[2][i], batch.y[2][i], batch.x[3][i], batch.y[3][i]};
+}
+
+ShadowRequest shade(const World& world, const IntegratorSettings& settings, const Hit& hit, const VertexPoints& u,
+                    PathState& path) noexcept {
     ++path.traced;
     if (!hit.valid()) {
         shade_miss(world, settings, path);
@@ -219,16 +242,9 @@ ShadowRequest shade(const World& world, const IntegratorSettings& settings, cons
     const SurfacePoint point = make_surface_point(world, hit, wo_world, footprint_at(hit.distance, path));
     if (!path.media.empty()) path.throughput *= transmittance_of(world, path.media.present(world), hit.distance);
 
-    // All random numbers of this vertex, at fixed dimensions.
-    path.sampler.start_dimension(camera_dimensions + vertex_dimensions * path.segments);
-    const Vec2 u_light = path.sampler.next_2d();
-    const Vec2 u_bsdf = path.sampler.next_2d();
-    const Vec2 u_choices = path.sampler.next_2d();
-    const Vec2 u_rare = path.sampler.next_2d();
-
     // Bodies that meet here: their indices of refraction, or nothing at all where another body hides the boundary.
     const Boundary boundary =
-        meet_boundary(world, world.surfaces[point.surface].medium, point.front_face, u_rare.y, path);
+        meet_boundary(world, world.surfaces[point.surface].medium, point.front_face, u.wavelength, path);
     if (boundary.is_hidden) {
         // To the rays that look for sampled lights it is opaque: what lies beyond, only this path can find.
         path.from_delta = true;
@@ -269,12 +285,12 @@ ShadowRequest shade(const World& world, const IntegratorSettings& settings, cons
     const BsdfStack stack = make_stack(material.bsdf, wo);
     const LightReceiver receiver{point.position, point.shading.normal, material.bsdf.transmits()};
     if (may_scatter && !world.lights.empty()) {
-        request = plan_connection(world, settings, point, receiver, boundary, material.bsdf, stack, wo, u_choices.x,
-                                  u_light, path);
+        request = plan_connection(world, settings, point, receiver, boundary, material.bsdf, stack, wo, u.light_choice,
+                                  u.light, path);
     }
 
     // Draw the next direction. Going straight through thin glass is no scattering: sampled lights shine through it too.
-    const BsdfSample scattered = sample(material.bsdf, stack, wo, u_choices.y, u_bsdf);
+    const BsdfSample scattered = sample(material.bsdf, stack, wo, u.lobe_choice, u.direction);
     const Vec3 wi = point.shading.world_from_local(scattered.wi);
     const bool transmitted = scattered.wi.z < 0.0f;
     path.alive = scattered.pdf > 0.0f && !is_black(scattered.weight) &&
@@ -305,7 +321,7 @@ ShadowRequest shade(const World& world, const IntegratorSettings& settings, cons
     // Russian roulette: a path lives on with about the share of light that it still carries.
     if (settings.russian_roulette && path.segments >= roulette_depth) {
         const float survival = std::min(max_component(glm::abs(path.throughput)) * path.eta_scale, max_survival);
-        if (u_rare.x >= survival) {
+        if (u.roulette >= survival) {
             path.alive = false;
         } else {
             path.throughput /= survival;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The steps of one path. Each is a total function over one path; a driver calls them in the order
-// begin, (extend, shade, connect)*, finish — for one path after the other or for a batch of paths step by step.
+// begin, (extend, draw, shade, connect)*, finish — for one path after the other or for a batch of paths step by step.
 #pragma once
 
 #include "renderer/integrator/path_state.h"
@@ -13,8 +13,24 @@ PathState begin_path(const View& view, const IntegratorSettings& settings, Pixel
 // Follows path.ray to the nearest surface.
 Hit extend(const World& world, const PathState& path, RayCounts& counts) noexcept;
 
+// The random numbers of the vertex at the end of the segment, at fixed dimensions of the path's sequence.
+struct VertexPoints {
+    static constexpr size_t pairs = 4;
+
+    Vec2 light, direction;
+    float light_choice = 0, lobe_choice = 0;
+    float roulette = 0, wavelength = 0;
+};
+
+// Sets the path's sampler to the first of them.
+void start_vertex(PathState& path) noexcept;
+VertexPoints draw_vertex(PathState& path) noexcept;
+// The same from what a PointBatch drew for the path's sampler.
+VertexPoints vertex_points(const PointBatch& batch, size_t i) noexcept;
+
 // At the end of the segment: gathers emission, plans a light connection, draws the next direction or ends the path.
-ShadowRequest shade(const World& world, const IntegratorSettings& settings, const Hit& hit, PathState& path) noexcept;
+ShadowRequest shade(const World& world, const IntegratorSettings& settings, const Hit& hit, const VertexPoints& u,
+                    PathState& path) noexcept;
 
 // Adds the planned light if it comes through.
 void connect(const World& world, const ShadowRequest& request, PathState& path, RayCounts& counts) noexcept;

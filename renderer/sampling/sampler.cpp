@@ -26,18 +26,65 @@ constexpr uint32_t laine_karras(uint32_t x, uint32_t seed) {
     return x;
 }
 
-constexpr uint32_t owen_scramble(uint32_t x, uint32_t seed) {
-    return reverse_bits(laine_karras(reverse_bits(x), seed));
+// The second Sobol dimension with its bits reversed: the generator matrix is Pascal's triangle mod 2, so that bit k of
+// the result is the sum of the index's bits j of which k is a subset (Lucas), which five doublings add up.
+constexpr uint32_t reversed_sobol_second(uint32_t index) {
+    index ^= (index & 0xaaaaaaaau) >> 1;
+    index ^= (index & 0xccccccccu) >> 2;
+    index ^= (index & 0xf0f0f0f0u) >> 4;
+    index ^= (index & 0xff00ff00u) >> 8;
+    return index ^ (index >> 16);
 }
 
-// The second Sobol dimension: the generator matrix of the polynomial x + 1, whose columns are Pascal's triangle mod 2.
-constexpr uint32_t sobol_second(uint32_t index) {
-    uint32_t out = 0;
-    for (uint32_t column = 0x80000000u; index != 0; index >>= 1, column ^= column >> 1) {
-        if ((index & 1u) != 0) out ^= column;
-    }
-    return out;
+struct Point {
+    float x = 0, y = 0;
+};
+
+// Each pair of dimensions sees the sequence in an order of its own (Burley 2020, section 5), so that pairs are
+// independent. An Owen scramble takes its number with the bits reversed and gives it so.
+[[gnu::always_inline]] inline Point sobol_point(uint32_t seed, uint32_t index) {
+    const uint32_t shuffled = reverse_bits(laine_karras(reverse_bits(index), seed));
+    return {unit_float(reverse_bits(laine_karras(shuffled, hash_u32(seed ^ 0xe6fe3bebu)))),
+            unit_float(reverse_bits(laine_karras(reversed_sobol_second(shuffled), hash_u32(seed ^ 0x2d15a2a7u))))};
 }
+
+[[gnu::always_inline]] inline Point independent_point(uint32_t seed, uint32_t index) {
+    const uint32_t a = hash_combine(seed, index);
+    return {unit_float(a), unit_float(hash_u32(a ^ 0x9e3779b9u))};
+}
+
+// The loops of PointBatch::draw, compiled for more than one instruction set.
+[[gnu::always_inline]] inline void draw_all(PointBatch& batch, size_t count, size_t pairs) {
+    // Whole vectors: what lies beyond count is computed in vain.
+    constexpr size_t step = 8;
+    const size_t end = (count + step - 1) / step * step;
+    for (size_t pair = 0; pair < pairs; ++pair) {
+        float* const x = batch.x[pair];
+        float* const y = batch.y[pair];
+        const auto offset = static_cast<uint32_t>(2 * pair);
+        const auto fill = [&](auto point) {
+            for (size_t i = 0; i < end; i += step) {
+                for (size_t k = i; k < i + step; ++k) {
+                    const Point p =
+                        point(hash_combine(batch.pixel_hash[k], batch.dimension[k] + offset), batch.index[k]);
+                    x[k] = p.x;
+                    y[k] = p.y;
+                }
+            }
+        };
+        if (batch.kind == SamplerKind::independent) {
+            fill(independent_point);
+        } else {
+            fill(sobol_point);
+        }
+    }
+}
+
+#ifdef __x86_64__
+[[gnu::target("avx2")]] void draw_all_avx2(PointBatch& batch, size_t count, size_t pairs) {
+    draw_all(batch, count, pairs);
+}
+#endif
 
 }  // namespace
 
@@ -54,15 +101,20 @@ float Sampler::next_1d() {
 Vec2 Sampler::next_2d() {
     const uint32_t seed = hash_combine(pixel_hash_, dimension_);
     dimension_ += 2;
-    if (kind_ == SamplerKind::independent) {
-        const uint32_t a = hash_combine(seed, index_);
-        return {unit_float(a), unit_float(hash_u32(a ^ 0x9e3779b9u))};
+    const Point point =
+        kind_ == SamplerKind::independent ? independent_point(seed, index_) : sobol_point(seed, index_);
+    return {point.x, point.y};
+}
+
+void PointBatch::draw(size_t count, size_t pairs) noexcept {
+#ifdef __x86_64__
+    static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
+    if (has_avx2) {
+        draw_all_avx2(*this, count, pairs);
+        return;
     }
-    // Each pair of dimensions sees the sequence in an order of its own (Burley 2020, section 5), so that pairs are
-    // independent.
-    const uint32_t shuffled = owen_scramble(index_, seed);
-    return {unit_float(owen_scramble(reverse_bits(shuffled), hash_u32(seed ^ 0xe6fe3bebu))),
-            unit_float(owen_scramble(sobol_second(shuffled), hash_u32(seed ^ 0x2d15a2a7u)))};
+#endif
+    draw_all(*this, count, pairs);
 }
 
 uint32_t Sampler::hash() const {

@@ -32,11 +32,38 @@ class Sampler {
     uint32_t hash() const;
 
   private:
+    friend struct PointBatch;
+
     uint32_t pixel_hash_ = 0;
     uint32_t index_ = 0;
     uint32_t dimension_ = 0;
     SamplerKind kind_ = SamplerKind::sobol;
 };
 static_assert(sizeof(Sampler) == 16);
+
+// Points of many samplers of one kind at once, to the bit what next_2d() of each gives: vector units do eight of them in
+// the time of one.
+struct PointBatch {
+    static constexpr size_t capacity = 256;
+    static constexpr size_t most_pairs = 5;
+
+    // Where the points of sampler i come from: those of its next pairs of dimensions.
+    void set(size_t i, const Sampler& sampler) {
+        pixel_hash[i] = sampler.pixel_hash_;
+        index[i] = sampler.index_;
+        dimension[i] = sampler.dimension_;
+        kind = sampler.kind_;
+    }
+    // Fills point(i, 0 … pairs - 1) for the first `count` samplers.
+    void draw(size_t count, size_t pairs) noexcept;
+    Vec2 point(size_t i, size_t pair) const { return {x[pair][i], y[pair][i]}; }
+
+    alignas(64) uint32_t pixel_hash[capacity];
+    alignas(64) uint32_t index[capacity];
+    alignas(64) uint32_t dimension[capacity];
+    alignas(64) float x[most_pairs][capacity];
+    alignas(64) float y[most_pairs][capacity];
+    SamplerKind kind = SamplerKind::sobol;
+};
 
 }  // namespace candela
