@@ -38,7 +38,9 @@ target_compile_options(
               -Wdouble-promotion
               -Wimplicit-fallthrough
               # Contraction would make results depend on the instruction set, and so break bit-identity.
-              -ffp-contract=off)
+              -ffp-contract=off
+              # Nobody reads errno after a root; without it a root is one instruction, and vectors of them are too.
+              -fno-math-errno)
 if(CANDELA_WERROR)
     target_compile_options(candela_compile INTERFACE -Werror)
 endif()

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/lights/light_tree.h"
 
+#include <bit>
 #include <limits>
+#include <memory>
 
 namespace candela {
 
 namespace {
 
 // cos(max(0, a − b)) of two angles in [0, π].
-float cos_of_difference(float sin_a, float cos_a, float sin_b, float cos_b) {
-    return cos_a > cos_b ? 1.0f : cos_a * cos_b + sin_a * sin_b;
+Float4 cos_of_difference(Float4 sin_a, Float4 cos_a, Float4 sin_b, Float4 cos_b) {
+    return select4(cos_a > cos_b, splat4(1), cos_a * cos_b + sin_a * sin_b);
+}
+
+Float4 sine_of(Float4 cosine) {
+    return sqrt4(max4(1.0f - cosine * cosine, splat4(0)));
 }
 
 float sine_of(float cosine) {
@@ -80,8 +86,8 @@ struct LightTree::Build {
     std::vector<uint32_t> order;
     LightTree& tree;
 
-    // Deeper ways than a word holds are cut short by splitting in halves.
-    static constexpr uint32_t deepest_unbalanced = 32;
+    // A way of more branches than a word holds would be lost: where it comes to that, halves keep it short.
+    static constexpr uint32_t deepest = 64 / bits_per_level;
     static constexpr int bucket_count = 12;
 
     // Below this many lights of a large scene cuts in the middle will do: the search would cost more than it saves.
@@ -142,7 +148,7 @@ struct LightTree::Build {
         int best_axis = -1, best_cut = 0;
         double best_cost = std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 3; ++axis) {
-            if (members.size() < searched_from() || depth >= deepest_unbalanced) break;
+            if (members.size() < searched_from() || depth + std::bit_width(members.size()) >= deepest) break;
             if (!(extent[axis] > 0.0f) || !std::isfinite(extent[axis])) continue;
             const auto buckets = fill_buckets(members, bucket_along(axis));
             std::array<LightBounds, bucket_count> above = buckets;
@@ -178,34 +184,82 @@ struct LightTree::Build {
         return first + half;
     }
 
-    // Makes the subtree over [first, last) and returns its bounds.
-    LightBounds build(size_t first, size_t last, uint64_t way, uint32_t depth) {
-        const size_t at = tree.nodes_.size();
-        tree.nodes_.emplace_back();
+    // A part of the order with the bounds of its lights, and where it is cut.
+    struct Part {
+        size_t first = 0, last = 0;
         LightBounds bounds;
-        if (last - first == 1) {
-            const uint32_t light = order[first];
-            bounds = lights[light];
-            tree.ways_[light] = way;
-            tree.reachable_[light] = 1;
-            tree.nodes_[at].is_leaf = true;
-            tree.nodes_[at].child_or_light = light;
-        } else {
-            const size_t middle = split(first, last, depth);
-            bounds = build(first, middle, way, depth + 1);
-            tree.nodes_[at].child_or_light = static_cast<uint32_t>(tree.nodes_.size());
-            bounds = united(bounds, build(middle, last, way | (uint64_t{1} << depth), depth + 1));
+        std::unique_ptr<Part> below, above;
+
+        bool is_light() const { return last - first == 1; }
+    };
+
+    // The binary tree over [first, last).
+    std::unique_ptr<Part> divide(size_t first, size_t last, uint32_t depth) {
+        auto part = std::make_unique<Part>();
+        part->first = first;
+        part->last = last;
+        if (part->is_light()) {
+            part->bounds = lights[order[first]];
+            return part;
         }
-        Node& node = tree.nodes_[at];
-        node.center = bounds.box.center();
-        node.radius_squared = sqr(bounds.box.radius());
-        node.axis = bounds.axis;
-        node.cos_normals = bounds.cos_normals;
-        node.sin_normals = sine_of(bounds.cos_normals);
-        node.cos_emission = bounds.cos_emission;
-        node.intensity = bounds.intensity;
-        node.two_sided = bounds.two_sided;
-        return bounds;
+        const size_t middle = split(first, last, depth);
+        part->below = divide(first, middle, depth + 1);
+        part->above = divide(middle, last, depth + 1);
+        part->bounds = united(part->below->bounds, part->above->bounds);
+        return part;
+    }
+
+    // Makes the node of a part: its halves, of which the brightest are opened until there are four.
+    uint32_t make_node(std::unique_ptr<Part> part, uint64_t way, uint32_t depth) {
+        std::vector<std::unique_ptr<Part>> branches;
+        branches.push_back(std::move(part));
+        while (branches.size() < width) {
+            size_t brightest = branches.size();
+            for (size_t k = 0; k < branches.size(); ++k) {
+                if (branches[k]->is_light()) continue;
+                if (brightest == branches.size() ||
+                    branches[k]->bounds.intensity > branches[brightest]->bounds.intensity) {
+                    brightest = k;
+                }
+            }
+            if (brightest == branches.size()) break;
+            const std::unique_ptr<Part> opened = std::move(branches[brightest]);
+            branches[brightest] = std::move(opened->below);
+            branches.push_back(std::move(opened->above));
+        }
+
+        const auto at = static_cast<uint32_t>(tree.nodes_.size());
+        tree.nodes_.emplace_back();
+        for (uint32_t k = 0; k < branches.size(); ++k) {
+            put(branches[k]->bounds, k, tree.nodes_[at]);
+            const uint64_t here = way | (uint64_t{k} << (bits_per_level * depth));
+            const bool is_light = branches[k]->is_light();
+            uint32_t child = 0;
+            if (is_light) {
+                child = order[branches[k]->first];
+                tree.ways_[child] = here;
+                tree.reachable_[child] = 1;
+            } else {
+                child = make_node(std::move(branches[k]), here, depth + 1);
+            }
+            tree.nodes_[at].child[k] = child;
+            tree.nodes_[at].is_light[k] = is_light ? 1 : 0;
+        }
+        return at;
+    }
+
+    static void put(const LightBounds& bounds, uint32_t k, Node& node) {
+        const Vec3 center = bounds.box.center();
+        for (int axis = 0; axis < 3; ++axis) {
+            node.center[axis][k] = center[axis];
+            node.axis[axis][k] = bounds.axis[axis];
+        }
+        node.radius_squared[k] = sqr(bounds.box.radius());
+        node.cos_normals[k] = bounds.cos_normals;
+        node.sin_normals[k] = sine_of(bounds.cos_normals);
+        node.cos_emission[k] = bounds.cos_emission;
+        node.intensity[k] = bounds.intensity;
+        node.two_sided[k] = bounds.two_sided ? 1.0f : 0.0f;
     }
 };
 
@@ -215,83 +269,79 @@ LightTree::LightTree(std::span<const LightBounds> lights) : ways_(lights.size(),
         if (lights[i].intensity > 0.0f && std::isfinite(lights[i].intensity)) build.order.push_back(i);
     }
     if (build.order.empty()) return;
-    nodes_.reserve(2 * build.order.size());
-    build.build(0, build.order.size(), 0, 0);
+    nodes_.reserve(build.order.size() / 2 + 1);
+    build.make_node(build.divide(0, build.order.size(), 0), 0, 0);
 }
 
 // An upper bound, but for the cosine at the light's centre, of intensity · cos / distance²; section 4 of the paper in
 // the form of Pharr et al. 2023, section 12.6.3.
-float LightTree::importance(const Node& node, const LightReceiver& receiver) noexcept {
-    const Vec3 to_light = node.center - receiver.position;
-    const float distance_squared = glm::dot(to_light, to_light);
-    const float inverse = distance_squared > 0.0f ? 1.0f / std::sqrt(distance_squared) : 0.0f;
-    const Vec3 wi = to_light * inverse;
+Float4 LightTree::weigh(const Node& node, const LightReceiver& receiver) noexcept {
+    const Vec3 from = receiver.position, normal = receiver.normal;
+    const Float4 x = node.center[0] - from.x, y = node.center[1] - from.y, z = node.center[2] - from.z;
+    const Float4 distance_squared = x * x + y * y + z * z;
+    const Float4 inverse = 1.0f / sqrt4(max4(distance_squared, splat4(1e-36f)));
 
-    // The angle under which the sphere around the lights is seen.
-    float cos_seen = -1, sin_seen = 0;
-    if (distance_squared > node.radius_squared) {
-        const float sin_squared = node.radius_squared / distance_squared;
-        sin_seen = std::sqrt(sin_squared);
-        cos_seen = std::sqrt(1.0f - sin_squared);
-    }
+    // The angle under which the sphere around the lights is seen; from inside, all around.
+    const Mask4 is_outside = distance_squared > node.radius_squared;
+    const Float4 sin_squared = min4(node.radius_squared * inverse * inverse, splat4(1));
+    const Float4 sin_seen = select4(is_outside, sqrt4(sin_squared), splat4(0));
+    const Float4 cos_seen = select4(is_outside, sqrt4(1.0f - sin_squared), splat4(-1));
 
     // The smallest angle between a light's normal and the direction to the receiver.
-    float cos_light = -glm::dot(node.axis, wi);
-    if (node.two_sided) cos_light = std::abs(cos_light);
-    const float sin_light = sine_of(cos_light);
-    const float cos_least = cos_of_difference(sin_light, cos_light, node.sin_normals, node.cos_normals);
-    const float cos_emitted = cos_of_difference(sine_of(cos_least), cos_least, sin_seen, cos_seen);
-    if (!(cos_emitted > node.cos_emission)) return 0.0f;
-    float out = node.intensity * cos_emitted / std::max(distance_squared, std::max(node.radius_squared, 1e-30f));
+    const Float4 along = -(node.axis[0] * x + node.axis[1] * y + node.axis[2] * z) * inverse;
+    const Float4 cos_light = select4(node.two_sided > 0.0f, abs4(along), along);
+    const Float4 cos_least = cos_of_difference(sine_of(cos_light), cos_light, node.sin_normals, node.cos_normals);
+    const Float4 cos_emitted = cos_of_difference(sine_of(cos_least), cos_least, sin_seen, cos_seen);
+    const Float4 nearest = max4(distance_squared, max4(node.radius_squared, splat4(1e-30f)));
+    const Float4 sent =
+        select4(cos_emitted > node.cos_emission, node.intensity * cos_emitted / nearest, splat4(0));
+    if (normal == Vec3(0)) return sent;
 
     // The largest cosine at the receiver.
-    if (receiver.normal != Vec3(0)) {
-        float cos_received = glm::dot(wi, receiver.normal);
-        if (receiver.both_sides) cos_received = std::abs(cos_received);
-        out *= std::max(cos_of_difference(sine_of(cos_received), cos_received, sin_seen, cos_seen), 0.0f);
-    }
-    return out;
+    const Float4 facing = (normal.x * x + normal.y * y + normal.z * z) * inverse;
+    const Float4 cos_received = receiver.both_sides ? abs4(facing) : facing;
+    return sent * max4(cos_of_difference(sine_of(cos_received), cos_received, sin_seen, cos_seen), splat4(0));
 }
 
 LightTree::Choice LightTree::sample(const LightReceiver& receiver, float u) const noexcept {
     if (nodes_.empty()) return {};
-    uint32_t at = 0;
     float probability = 1;
-    if (nodes_[0].is_leaf && !(importance(nodes_[0], receiver) > 0.0f)) return {};
-    while (!nodes_[at].is_leaf) {
-        const uint32_t first = at + 1, second = nodes_[at].child_or_light;
-        const float a = importance(nodes_[first], receiver), b = importance(nodes_[second], receiver);
-        if (!(a + b > 0.0f)) return {};
-        const float share = a / (a + b);
-        // What is left of u is uniform again.
-        if (u < share) {
-            u = std::min(u / share, one_minus_epsilon);
-            probability *= share;
-            at = first;
-        } else {
-            u = std::min((u - share) / (1.0f - share), one_minus_epsilon);
-            probability *= 1.0f - share;
-            at = second;
+    for (uint32_t at = 0;;) {
+        const Node& node = nodes_[at];
+        const Float4 weights = weigh(node, receiver);
+        const float sum = (weights[0] + weights[1]) + (weights[2] + weights[3]);
+        if (!(sum > 0.0f)) return {};
+
+        // The last branch that has light takes what rounding leaves; what is left of u is uniform again.
+        float rest = u * sum;
+        uint32_t taken = width;
+        for (uint32_t k = 0; k < width; ++k) {
+            if (!(weights[k] > 0.0f)) continue;
+            if (taken < width) rest -= weights[taken];
+            taken = k;
+            if (rest < weights[k]) break;
         }
+        u = std::clamp(rest / weights[taken], 0.0f, one_minus_epsilon);
+        probability *= weights[taken] / sum;
+        at = node.child[taken];
+        if (node.is_light[taken] != 0) return {at, probability};
     }
-    return {nodes_[at].child_or_light, probability};
 }
 
 float LightTree::probability(uint32_t index, const LightReceiver& receiver) const noexcept {
     if (nodes_.empty() || reachable_[index] == 0) return 0.0f;
-    uint32_t at = 0;
     float probability = 1;
-    if (nodes_[0].is_leaf) return importance(nodes_[0], receiver) > 0.0f ? 1.0f : 0.0f;
-    for (uint64_t way = ways_[index]; !nodes_[at].is_leaf; way >>= 1) {
-        const uint32_t first = at + 1, second = nodes_[at].child_or_light;
-        const float a = importance(nodes_[first], receiver), b = importance(nodes_[second], receiver);
-        if (!(a + b > 0.0f)) return 0.0f;
-        const float share = a / (a + b);
-        const bool goes_second = (way & 1) != 0;
-        probability *= goes_second ? 1.0f - share : share;
-        at = goes_second ? second : first;
+    uint64_t way = ways_[index];
+    for (uint32_t at = 0;; way >>= bits_per_level) {
+        const Node& node = nodes_[at];
+        const Float4 weights = weigh(node, receiver);
+        const float sum = (weights[0] + weights[1]) + (weights[2] + weights[3]);
+        const auto taken = static_cast<uint32_t>(way & (width - 1));
+        if (!(weights[taken] > 0.0f)) return 0.0f;
+        probability *= weights[taken] / sum;
+        at = node.child[taken];
+        if (node.is_light[taken] != 0) return probability;
     }
-    return probability;
 }
 
 }  // namespace candela
