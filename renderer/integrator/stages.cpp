@@ -48,6 +48,11 @@ float found_light_weight(const IntegratorSettings& settings, const PathState& pa
     return mis_weight(path.bsdf_pdf, light_pdf);
 }
 
+// With both techniques light samples need not cover what directions find.
+LightCoverage coverage_of(const IntegratorSettings& settings) {
+    return settings.estimator == Estimator::mis ? LightCoverage::beside_directions : LightCoverage::complete;
+}
+
 void shade_miss(const World& world, const IntegratorSettings& settings, PathState& path) {
     path.alive = false;
     if (path.depth == 0 && settings.background != BackgroundKind::environment) {
@@ -60,7 +65,7 @@ void shade_miss(const World& world, const IntegratorSettings& settings, PathStat
     }
     if (!world.lights.environment) return;
     const Vec3 wi = path.ray.direction;
-    const float light_pdf = path.from_delta ? 0.0f : environment_light_pdf(world.lights, wi);
+    const float light_pdf = path.from_delta ? 0.0f : environment_light_pdf(world.lights, coverage_of(settings), wi);
     const float weight = found_light_weight(settings, path, light_pdf);
     if (weight > 0.0f)
         gather(settings, path, weight * world.lights.environment->radiance(wi), path.depth, path.radiance);
@@ -138,7 +143,7 @@ Ray shadow_ray(const World& world, const SurfacePoint& point, const LightSample&
     Vec3 target = point.position + light.distance * light.wi;
     if (light.surface != invalid_index) {
         const EmissiveTriangle& cell = world.lights.triangles[light.emissive];
-        const Vec3 normal = glm::normalize(glm::cross(cell.edge1, cell.edge2));
+        const Vec3& normal = cell.normal;
         const Vec2 at = (Vec2(light.u, light.v) - cell.corner) / cell.scale;
         // The intersector knows the whole triangle, not the cell.
         const float error_m = surface_error_m(
@@ -159,7 +164,7 @@ ShadowRequest plan_connection(const World& world, const IntegratorSettings& sett
                               const BsdfStack& stack, const Vec3& wo, float u_pick, const Vec2& u,
                               const PathState& path) {
     ShadowRequest request;
-    const LightSample light = sample_light(world.lights, receiver, u_pick, u);
+    const LightSample light = sample_light(world.lights, receiver, coverage_of(settings), u_pick, u);
     if (!(light.pdf > 0.0f)) return request;
     if (settings.estimator == Estimator::bsdf && !light.is_delta) return request;
     const Vec3 wi = point.shading.local_from_world(light.wi);
@@ -263,7 +268,7 @@ ShadowRequest shade(const World& world, const IntegratorSettings& settings, cons
             const bool flips = world.transforms[world.surfaces[point.surface].transform].flips;
             const uint32_t cell = world.lights.cells[first_emissive + point.triangle].index_at(flips ? hit.v : hit.u,
                                                                                                flips ? hit.u : hit.v);
-            light_pdf = triangle_light_pdf(world.lights, cell, path.vertex, path.ray.direction,
+            light_pdf = triangle_light_pdf(world.lights, cell, path.vertex, coverage_of(settings), path.ray.direction,
                                            glm::length(point.position - path.vertex.position));
         }
         const float weight = found_light_weight(settings, path, light_pdf);

@@ -29,14 +29,14 @@ EnvironmentLight::EnvironmentLight(const Environment& environment)
     }
     if (image_.empty()) image_ = ImageRgb32f(1, 1, Vec3(0));
 
-    // Weigh each cell by the integral of the bilinear picture's luminance over it, so that no light lies where the
-    // density is 0.
+    // The mean of the bilinear picture's luminance over each cell, and over the sphere.
     const int width = image_.width(), height = image_.height();
     std::vector<float> weights(image_.size());
+    const auto row_height = [height](int y) {
+        return std::cos(glm::pi<double>() * y / height) - std::cos(glm::pi<double>() * (y + 1) / height);
+    };
     double sum = 0;
     for (int y = 0; y < height; ++y) {
-        const double top = std::cos(glm::pi<double>() * y / height);
-        const double bottom = std::cos(glm::pi<double>() * (y + 1) / height);
         for (int x = 0; x < width; ++x) {
             constexpr float tap[3] = {0.125f, 0.75f, 0.125f};
             float mean = 0;
@@ -46,13 +46,23 @@ EnvironmentLight::EnvironmentLight(const Environment& environment)
                     mean += tap[i + 1] * tap[j + 1] * luminance(texel);
                 }
             }
-            const double weight = static_cast<double>(mean) * (top - bottom);
-            weights[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)] =
-                static_cast<float>(weight);
-            sum += weight;
+            weights[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)] = mean;
+            sum += static_cast<double>(mean) * row_height(y);
         }
     }
     mean_luminance_ = static_cast<float>(sum / (2.0 * width));
+
+    // Cells weigh what they shine above the mean, times their solid angle.
+    double excess = 0;
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            float& weight = weights[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
+            const double part = static_cast<double>(std::max(weight - mean_luminance_, 0.0f)) * row_height(y);
+            weight = static_cast<float>(part);
+            excess += part;
+        }
+    }
+    mean_excess_ = is_constant() ? 0.0f : static_cast<float>(excess / (2.0 * width));
     distribution_ = Distribution2D(weights, width, height);
 }
 
@@ -70,26 +80,33 @@ Vec3 EnvironmentLight::radiance(const Vec3& wi) const noexcept {
            t.y * ((1 - t.x) * image_(x0, y1) + t.x * image_(x1, y1));
 }
 
-float EnvironmentLight::sample(const Vec2& u, Vec3& wi) const noexcept {
-    if (is_constant()) {
-        wi = sample_sphere(u);
-        return sphere_pdf();
+float EnvironmentLight::sample(const Vec2& u, bool complete, Vec3& wi) const noexcept {
+    Vec2 u_rest = u;
+    if (complete) {
+        if (!(mean_excess_ > 0.0f) || u.x < 0.5f) {
+            wi = sample_sphere(mean_excess_ > 0.0f ? Vec2(2.0f * u.x, u.y) : u);
+            return pdf(wi, true);
+        }
+        u_rest.x = std::min(2.0f * u.x - 1.0f, one_minus_epsilon);
     }
+    if (!(mean_excess_ > 0.0f)) return 0.0f;
     float pdf_uv = 0;
-    const Vec2 uv = distribution_.sample(u, pdf_uv);
+    const Vec2 uv = distribution_.sample(u_rest, pdf_uv);
     const float phi = (uv.x - 0.5f) * 2.0f * pi - rotation_radians_;
     const float latitude = (0.5f - uv.y) * pi;
     const float cosine = std::cos(latitude);
     wi = {cosine * std::cos(phi), std::sin(latitude), cosine * std::sin(phi)};
     // d(solid angle) = 2π² cos(latitude) du dv
-    return cosine > 0.0f ? pdf_uv / (2.0f * pi * pi * cosine) : 0.0f;
+    const float density = cosine > 0.0f ? pdf_uv / (2.0f * pi * pi * cosine) : 0.0f;
+    return complete ? 0.5f * (density + sphere_pdf()) : density;
 }
 
-float EnvironmentLight::pdf(const Vec3& wi) const noexcept {
-    if (is_constant()) return sphere_pdf();
+float EnvironmentLight::pdf(const Vec3& wi, bool complete) const noexcept {
+    if (!(mean_excess_ > 0.0f)) return complete ? sphere_pdf() : 0.0f;
     const float cosine = safe_sqrt(1.0f - wi.y * wi.y);
-    if (!(cosine > 0.0f)) return 0.0f;
-    return distribution_.pdf(uv_of(wi, rotation_radians_)) / (2.0f * pi * pi * cosine);
+    const float density =
+        cosine > 0.0f ? distribution_.pdf(uv_of(wi, rotation_radians_)) / (2.0f * pi * pi * cosine) : 0.0f;
+    return complete ? 0.5f * (density + sphere_pdf()) : density;
 }
 
 }  // namespace candela

@@ -293,8 +293,7 @@ Float4 LightTree::weigh(const Node& node, const LightReceiver& receiver) noexcep
     const Float4 cos_least = cos_of_difference(sine_of(cos_light), cos_light, node.sin_normals, node.cos_normals);
     const Float4 cos_emitted = cos_of_difference(sine_of(cos_least), cos_least, sin_seen, cos_seen);
     const Float4 nearest = max4(distance_squared, max4(node.radius_squared, splat4(1e-30f)));
-    const Float4 sent =
-        select4(cos_emitted > node.cos_emission, node.intensity * cos_emitted / nearest, splat4(0));
+    const Float4 sent = select4(cos_emitted > node.cos_emission, node.intensity * cos_emitted / nearest, splat4(0));
     if (normal == Vec3(0)) return sent;
 
     // The largest cosine at the receiver.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A tree over the lights that have a place: from the root down, one of four branches is taken, each with about the share
-// of light that it may send to the receiver (Conty Estévez and Kulla 2018, "Importance Sampling of Many Lights with
-// Adaptive Tree Splitting", without the splitting). Four, since vector units weigh them in the time of one.
+// A tree over the lights that have a place: from the root down, one of four branches is taken, each with about the
+// share of light that it may send to the receiver (Conty Estévez and Kulla 2018, "Importance Sampling of Many Lights
+// with Adaptive Tree Splitting", without the splitting). Four, since vector units weigh them in the time of one.
 #pragma once
 
 #include <span>

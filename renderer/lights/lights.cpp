@@ -7,10 +7,18 @@ namespace candela {
 
 namespace {
 
-// Triangles between these solid angles are sampled uniformly in what the receiver sees; smaller ones look the same by
-// area, larger ones (the receiver all but touches them) are beyond the method's precision.
+// Triangles that are small from where they are seen look the same by area; those between these solid angles are sampled
+// uniformly in what the receiver sees; larger ones (the receiver all but touches them) are beyond the method's
+// precision.
+constexpr float small_size_squared = 0.1f;  // of the edges, in distances
 constexpr double smallest_solid_angle = 1e-3;
 constexpr double largest_solid_angle = 6.2;
+
+bool looks_small(const EmissiveTriangle& light, const Vec3& from) {
+    const Vec3 to_center = light.p0 + (light.edge1 + light.edge2) * (1.0f / 3.0f) - from;
+    const float size_squared = glm::dot(light.edge1, light.edge1) + glm::dot(light.edge2, light.edge2);
+    return size_squared < small_size_squared * glm::dot(to_center, to_center);
+}
 
 bool sampled_by_solid_angle(const SphericalTriangle& seen) {
     return seen.solid_angle > smallest_solid_angle && seen.solid_angle < largest_solid_angle;
@@ -45,11 +53,9 @@ LightBounds bounds_of(const EmissiveTriangle& light) {
     LightBounds out;
     for (const Vec3& corner : {light.p0, light.p0 + light.edge1, light.p0 + light.edge2})
         out.box.extend(corner);
-    const Vec3 cross = glm::cross(light.edge1, light.edge2);
-    const float doubled_area = glm::length(cross);
-    if (!(doubled_area > 0.0f)) return out;
-    out.axis = cross / doubled_area;
-    out.intensity = 0.5f * doubled_area * light.mean_radiance;
+    if (!(light.doubled_area > 0.0f)) return out;
+    out.axis = light.normal;
+    out.intensity = 0.5f * light.doubled_area * light.mean_radiance;
     out.two_sided = light.two_sided;
     return out;
 }
@@ -78,6 +84,10 @@ float share_of(double power, double other) {
     return other > 0 ? static_cast<float>(std::clamp(power / (power + other), 0.2, 0.8)) : 1.0f;
 }
 
+float environment_share(const Lights& lights, LightCoverage coverage) {
+    return lights.environment_probability[static_cast<size_t>(coverage)];
+}
+
 LightSample sample_punctual(const PlacedLight& light, const Vec3& from, float probability) {
     LightSample out;
     out.is_delta = true;
@@ -100,35 +110,39 @@ LightSample sample_punctual(const PlacedLight& light, const Vec3& from, float pr
 }
 
 // The cosine at the light, and whether the light shines that way.
-float emitting_cosine(const EmissiveTriangle& light, const Vec3& normal, const Vec3& wi) {
-    const float cosine = -glm::dot(normal, wi);
+float emitting_cosine(const EmissiveTriangle& light, const Vec3& wi) {
+    const float cosine = -glm::dot(light.normal, wi);
     return light.two_sided ? std::abs(cosine) : cosine;
+}
+
+// Draws a direction within the triangle as it is seen, and where on it that leads; returns the pdf, 0 where the
+// triangle is to be sampled by area.
+float sample_solid_angle(const EmissiveTriangle& light, const Vec3& from, const Vec2& u, LightSample& out) {
+    const SphericalTriangle seen(from, light.p0, light.edge1, light.edge2);
+    if (!sampled_by_solid_angle(seen)) return 0.0f;
+    // Möller and Trumbore 1997.
+    const glm::dvec3 wi = sample_spherical_triangle(seen, u);
+    const glm::dvec3 edge1(light.edge1), edge2(light.edge2);
+    const glm::dvec3 p = glm::cross(wi, edge2);
+    const double determinant = glm::dot(p, edge1);
+    if (determinant == 0) return infinity;
+    const glm::dvec3 s = glm::dvec3(from) - glm::dvec3(light.p0);
+    out.u = static_cast<float>(std::clamp(glm::dot(s, p) / determinant, 0.0, 1.0));
+    out.v = static_cast<float>(std::clamp(glm::dot(wi, glm::cross(s, edge1)) / determinant, 0.0, 1.0));
+    if (out.u + out.v > 1.0f) {
+        const float scale = 1.0f / (out.u + out.v);
+        out.u *= scale;
+        out.v *= scale;
+    }
+    return static_cast<float>(1.0 / seen.solid_angle);
 }
 
 LightSample sample_triangle_light(const EmissiveTriangle& light, const Vec3& from, const Vec2& u, float probability) {
     LightSample out;
-    const Vec3 cross = glm::cross(light.edge1, light.edge2);
-    const float doubled_area = glm::length(cross);
-    if (!(doubled_area > 0.0f)) return out;
-    const SphericalTriangle seen(from, light.p0, light.edge1, light.edge2);
-    float pdf_solid_angle = 0;
-    if (sampled_by_solid_angle(seen)) {
-        // Draw a direction, then find where on the triangle it leads (Möller and Trumbore 1997).
-        const glm::dvec3 wi = sample_spherical_triangle(seen, u);
-        const glm::dvec3 edge1(light.edge1), edge2(light.edge2);
-        const glm::dvec3 p = glm::cross(wi, edge2);
-        const double determinant = glm::dot(p, edge1);
-        if (determinant == 0) return out;
-        const glm::dvec3 s = glm::dvec3(from) - glm::dvec3(light.p0);
-        out.u = static_cast<float>(std::clamp(glm::dot(s, p) / determinant, 0.0, 1.0));
-        out.v = static_cast<float>(std::clamp(glm::dot(wi, glm::cross(s, edge1)) / determinant, 0.0, 1.0));
-        if (out.u + out.v > 1.0f) {
-            const float scale = 1.0f / (out.u + out.v);
-            out.u *= scale;
-            out.v *= scale;
-        }
-        pdf_solid_angle = static_cast<float>(1.0 / seen.solid_angle);
-    } else {
+    if (!(light.doubled_area > 0.0f)) return out;
+    float pdf_solid_angle = looks_small(light, from) ? 0.0f : sample_solid_angle(light, from, u, out);
+    if (!std::isfinite(pdf_solid_angle)) return out;
+    if (pdf_solid_angle == 0.0f) {
         const float root = std::sqrt(u.x);
         out.u = root * (1.0f - u.y);
         out.v = root * u.y;
@@ -138,10 +152,10 @@ LightSample sample_triangle_light(const EmissiveTriangle& light, const Vec3& fro
     if (!(distance2 > 0.0f)) return out;
     out.distance = std::sqrt(distance2);
     out.wi = to_light / out.distance;
-    const float cosine = emitting_cosine(light, cross / doubled_area, out.wi);
+    const float cosine = emitting_cosine(light, out.wi);
     if (!(cosine > 0.0f)) return out;
     // From area to solid angle: dω = cos dA / r².
-    if (pdf_solid_angle == 0.0f) pdf_solid_angle = distance2 / (cosine * 0.5f * doubled_area);
+    if (pdf_solid_angle == 0.0f) pdf_solid_angle = distance2 / (cosine * 0.5f * light.doubled_area);
     if (!std::isfinite(pdf_solid_angle)) return out;
     out.pdf = probability * pdf_solid_angle;
     out.weight = Vec3(1.0f / out.pdf);
@@ -165,6 +179,11 @@ uint32_t EmissiveCells::index_at(float u, float v) const {
 }
 
 void finish_lights(Lights& lights, const Bounds3& scene_bounds) {
+    for (EmissiveTriangle& light : lights.triangles) {
+        const Vec3 cross = glm::cross(light.edge1, light.edge2);
+        light.doubled_area = glm::length(cross);
+        light.normal = light.doubled_area > 0.0f ? cross / light.doubled_area : Vec3(0);
+    }
     std::vector<LightBounds> bounds;
     bounds.reserve(lights.punctual.size() + lights.triangles.size());
     for (const PlacedLight& light : lights.punctual)
@@ -189,18 +208,24 @@ void weigh_lights(Lights& lights, const Bounds3& scene_bounds) {
     const double placed = placed_power(lights);
     lights.directional = AliasTable(irradiance);
     lights.directional_probability = share_of(directional, placed);
-    lights.environment_probability = 0.0f;
-    if (!lights.environment) return;
-    const double sky = 4.0 * static_cast<double>(pi * pi * lights.environment->mean_luminance()) * radius * radius;
-    lights.environment_probability = directional + placed > 0 ? share_of(sky, directional + placed) : 1.0f;
+    for (const LightCoverage coverage : {LightCoverage::complete, LightCoverage::beside_directions}) {
+        float& share = lights.environment_probability[static_cast<size_t>(coverage)];
+        share = 0.0f;
+        if (!lights.environment) continue;
+        const float luminance = coverage == LightCoverage::complete ? lights.environment->mean_luminance()
+                                                                    : lights.environment->mean_excess();
+        const double sky = 4.0 * static_cast<double>(pi * pi * luminance) * radius * radius;
+        share = directional + placed > 0 ? share_of(sky, directional + placed) : (sky > 0 ? 1.0f : 0.0f);
+    }
 }
 
-LightSample sample_light(const Lights& lights, const LightReceiver& receiver, float u_pick, const Vec2& u) noexcept {
+LightSample sample_light(const Lights& lights, const LightReceiver& receiver, LightCoverage coverage, float u_pick,
+                         const Vec2& u) noexcept {
     // Environment, directional lights or one with a place; what is left of u_pick is uniform again.
-    const float p_environment = lights.environment_probability;
+    const float p_environment = environment_share(lights, coverage);
     if (u_pick < p_environment) {
         LightSample out;
-        const float pdf = lights.environment->sample(u, out.wi);
+        const float pdf = lights.environment->sample(u, coverage == LightCoverage::complete, out.wi);
         if (!(pdf > 0.0f) || !std::isfinite(pdf)) return out;
         out.pdf = pdf * p_environment;
         out.distance = infinity;
@@ -230,26 +255,26 @@ LightSample sample_light(const Lights& lights, const LightReceiver& receiver, fl
     return out;
 }
 
-float triangle_light_pdf(const Lights& lights, uint32_t emissive_index, const LightReceiver& receiver, const Vec3& wi,
-                         float distance) noexcept {
+float triangle_light_pdf(const Lights& lights, uint32_t emissive_index, const LightReceiver& receiver,
+                         LightCoverage coverage, const Vec3& wi, float distance) noexcept {
     const EmissiveTriangle& light = lights.triangles[emissive_index];
-    const Vec3 cross = glm::cross(light.edge1, light.edge2);
-    const float doubled_area = glm::length(cross);
-    if (!(doubled_area > 0.0f) || !lights.placed) return 0.0f;
-    const float cosine = emitting_cosine(light, cross / doubled_area, wi);
+    if (!(light.doubled_area > 0.0f) || !lights.placed) return 0.0f;
+    const float cosine = emitting_cosine(light, wi);
     if (!(cosine > 0.0f)) return 0.0f;
     const auto index = static_cast<uint32_t>(lights.punctual.size()) + emissive_index;
-    const float probability = (1.0f - lights.environment_probability) * (1.0f - lights.directional_probability) *
+    const float probability = (1.0f - environment_share(lights, coverage)) * (1.0f - lights.directional_probability) *
                               lights.placed->probability(index, receiver);
     if (!(probability > 0.0f)) return 0.0f;
-    const SphericalTriangle seen(receiver.position, light.p0, light.edge1, light.edge2);
-    if (sampled_by_solid_angle(seen)) return probability * static_cast<float>(1.0 / seen.solid_angle);
-    return probability * distance * distance / (cosine * 0.5f * doubled_area);
+    if (!looks_small(light, receiver.position)) {
+        const SphericalTriangle seen(receiver.position, light.p0, light.edge1, light.edge2);
+        if (sampled_by_solid_angle(seen)) return probability * static_cast<float>(1.0 / seen.solid_angle);
+    }
+    return probability * distance * distance / (cosine * 0.5f * light.doubled_area);
 }
 
-float environment_light_pdf(const Lights& lights, const Vec3& wi) noexcept {
-    if (!lights.environment) return 0.0f;
-    return lights.environment_probability * lights.environment->pdf(wi);
+float environment_light_pdf(const Lights& lights, LightCoverage coverage, const Vec3& wi) noexcept {
+    const float probability = environment_share(lights, coverage);
+    return probability > 0.0f ? probability * lights.environment->pdf(wi, coverage == LightCoverage::complete) : 0.0f;
 }
 
 }  // namespace candela

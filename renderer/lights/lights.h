@@ -26,6 +26,9 @@ struct EmissiveTriangle {
     uint32_t triangle = 0;    // index in its primitive
     float mean_radiance = 0;  // mean luminance of the emission over the cell
     bool two_sided = false;
+    // Set by finish_lights: the unit normal, and twice the area (0: never sampled).
+    Vec3 normal{0};
+    float doubled_area = 0;
 };
 
 // The cells of one triangle: cells_per_edge² entries of Lights::triangles. Row i of cells along the first edge comes
@@ -69,13 +72,19 @@ struct Lights {
 
     // How one is chosen: first between the environment, the directional lights and all that have a place; then among
     // the directional ones by irradiance, or down the tree over [punctual…, triangles…].
-    float environment_probability = 0;
+    // The environment has two: by LightCoverage.
+    float environment_probability[2] = {};
     float directional_probability = 0;  // where it is not the environment
     AliasTable directional;             // over the punctual lights
     std::shared_ptr<const LightTree> placed;
 
     bool empty() const { return punctual.empty() && triangles.empty() && !environment; }
 };
+
+// Which part of all directions light samples have to cover. complete: all that shines. beside_directions: where BSDF
+// samples find light as well, what the environment shines everywhere alike is left to them, and light samples go to
+// what stands out (Karlík et al. 2019, "MIS Compensation").
+enum class LightCoverage : uint8_t { complete, beside_directions };
 
 // Fills the choosing part from the lists. scene_bounds sets the reach of directional lights and environment for
 // comparing powers.
@@ -84,13 +93,14 @@ void finish_lights(Lights& lights, const Bounds3& scene_bounds);
 void weigh_lights(Lights& lights, const Bounds3& scene_bounds);
 
 // Chooses a light with u_pick and a point or direction on it with u, seen from the receiver.
-LightSample sample_light(const Lights& lights, const LightReceiver& receiver, float u_pick, const Vec2& u) noexcept;
+LightSample sample_light(const Lights& lights, const LightReceiver& receiver, LightCoverage coverage, float u_pick,
+                         const Vec2& u) noexcept;
 
-// The pdf with which sample_light, for the same receiver, finds the emissive cell (index in Lights::triangles) along
-// the unit direction wi at that distance; 0 where it would not (back of a one-sided emitter).
-float triangle_light_pdf(const Lights& lights, uint32_t emissive_index, const LightReceiver& receiver, const Vec3& wi,
-                         float distance) noexcept;
+// The pdf with which sample_light, for the same receiver and coverage, finds the emissive cell (index in
+// Lights::triangles) along the unit direction wi at that distance; 0 where it would not (back of a one-sided emitter).
+float triangle_light_pdf(const Lights& lights, uint32_t emissive_index, const LightReceiver& receiver,
+                         LightCoverage coverage, const Vec3& wi, float distance) noexcept;
 // The same for a ray that leaves the scene.
-float environment_light_pdf(const Lights& lights, const Vec3& wi) noexcept;
+float environment_light_pdf(const Lights& lights, LightCoverage coverage, const Vec3& wi) noexcept;
 
 }  // namespace candela

@@ -101,8 +101,7 @@ float Sampler::next_1d() {
 Vec2 Sampler::next_2d() {
     const uint32_t seed = hash_combine(pixel_hash_, dimension_);
     dimension_ += 2;
-    const Point point =
-        kind_ == SamplerKind::independent ? independent_point(seed, index_) : sobol_point(seed, index_);
+    const Point point = kind_ == SamplerKind::independent ? independent_point(seed, index_) : sobol_point(seed, index_);
     return {point.x, point.y};
 }
 

@@ -41,8 +41,8 @@ class Sampler {
 };
 static_assert(sizeof(Sampler) == 16);
 
-// Points of many samplers of one kind at once, to the bit what next_2d() of each gives: vector units do eight of them in
-// the time of one.
+// Points of many samplers of one kind at once, to the bit what next_2d() of each gives: vector units do eight of them
+// in the time of one.
 struct PointBatch {
     static constexpr size_t capacity = 256;
     static constexpr size_t most_pairs = 5;

@@ -38,7 +38,7 @@ Vec3 direction_of(const Vec2& s) {
     return {r * std::cos(phi), y, r * std::sin(phi)};
 }
 
-double chi_squared_of(const EnvironmentLight& light) {
+double chi_squared_of(const EnvironmentLight& light, bool complete) {
     constexpr int grid = 24, fine = 40, count = 300000;
     std::mt19937 engine(11);
     const auto uniform = [&] { return static_cast<float>(engine() >> 8) * 0x1p-24f; };
@@ -47,9 +47,9 @@ double chi_squared_of(const EnvironmentLight& light) {
     for (int i = 0; i < count; ++i) {
         Vec3 wi(0);
         const float u = uniform();
-        const float pdf = light.sample({u, uniform()}, wi);
+        const float pdf = light.sample({u, uniform()}, complete, wi);
         EXPECT_NEAR(glm::length(wi), 1, 1e-4f);
-        disagreeing += std::abs(pdf / light.pdf(wi) - 1) < 1e-2f ? 0 : 1;
+        disagreeing += std::abs(pdf / light.pdf(wi, complete) - 1) < 1e-2f ? 0 : 1;
         const Vec2 at = glm::clamp(square_of(wi), Vec2(0), Vec2(one_minus_epsilon)) * static_cast<float>(grid);
         counts[static_cast<size_t>(at.y) * grid + static_cast<size_t>(at.x)] += 1;
     }
@@ -59,8 +59,8 @@ double chi_squared_of(const EnvironmentLight& light) {
     for (int y = 0; y < grid * fine; ++y) {
         for (int x = 0; x < grid * fine; ++x) {
             const Vec2 at = (Vec2(x, y) + 0.5f) / static_cast<float>(grid * fine);
-            const double mass = static_cast<double>(light.pdf(direction_of(at))) * 4 * static_cast<double>(pi) /
-                                (grid * fine * grid * fine);
+            const double mass = static_cast<double>(light.pdf(direction_of(at), complete)) * 4 *
+                                static_cast<double>(pi) / (grid * fine * grid * fine);
             total += mass;
             expected[static_cast<size_t>(y / fine * grid + x / fine)] += mass * count;
         }
@@ -70,11 +70,42 @@ double chi_squared_of(const EnvironmentLight& light) {
 }
 
 TEST(EnvironmentLight, SamplesFollowTheirPdf) {
-    EXPECT_LT(chi_squared_of(EnvironmentLight(uneven_environment())), 4);
+    for (const bool complete : {false, true})
+        EXPECT_LT(chi_squared_of(EnvironmentLight(uneven_environment()), complete), 4) << complete;
 }
 
 TEST(EnvironmentLight, SamplesOfAConstantSkyFollowTheirPdf) {
-    EXPECT_LT(chi_squared_of(EnvironmentLight(constant(Vec3(1)))), 4);
+    EXPECT_LT(chi_squared_of(EnvironmentLight(constant(Vec3(1))), true), 4);
+}
+
+TEST(EnvironmentLight, BesideDirectionsOnlyWhatStandsOutIsSampled) {
+    // A constant sky has nothing of that.
+    const EnvironmentLight even(constant(Vec3(1)));
+    Vec3 wi(0);
+    EXPECT_EQ(even.sample({0.3f, 0.7f}, false, wi), 0.0f);
+    EXPECT_EQ(even.pdf({0, 1, 0}, false), 0.0f);
+    EXPECT_EQ(even.mean_excess(), 0.0f);
+
+    // One bright quarter of the sphere in a grey one: all samples go there.
+    Environment environment;
+    environment.radiance = ImageRgb32f(64, 32, Vec3(1));
+    for (int y = 0; y < 32; ++y) {
+        for (int x = 32; x < 48; ++x)
+            environment.radiance(x, y) = Vec3(5);
+    }
+    const EnvironmentLight light(environment);
+    EXPECT_NEAR(light.mean_luminance(), 2.0f, 0.02f);
+    EXPECT_NEAR(light.mean_excess(), 0.75f, 0.05f);
+    std::mt19937 engine(7);
+    const auto uniform = [&] { return static_cast<float>(engine() >> 8) * 0x1p-24f; };
+    for (int i = 0; i < 1000; ++i) {
+        const float u = uniform();
+        ASSERT_GT(light.sample({u, uniform()}, false, wi), 0.0f);
+        ASSERT_GT(luminance(light.radiance(wi)), light.mean_luminance());
+    }
+    // The dark part is left to directions alone, unless light samples must cover all.
+    EXPECT_EQ(light.pdf(glm::normalize(Vec3(-1, 0.3f, -1)), false), 0.0f);
+    EXPECT_NEAR(light.pdf(glm::normalize(Vec3(-1, 0.3f, -1)), true), 0.5f / (4 * pi), 1e-4f);
 }
 
 TEST(EnvironmentLight, SamplingIntegratesTheRadiance) {
@@ -86,7 +117,7 @@ TEST(EnvironmentLight, SamplingIntegratesTheRadiance) {
     for (int i = 0; i < 100000; ++i) {
         Vec3 wi(0);
         const float u = uniform();
-        const float pdf = light.sample({u, uniform()}, wi);
+        const float pdf = light.sample({u, uniform()}, true, wi);
         if (pdf > 0) means.add(static_cast<double>(light.radiance(wi).g / pdf));
     }
     double exact = 0;

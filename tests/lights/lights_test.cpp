@@ -54,9 +54,9 @@ double triangle_score(const EmissiveTriangle& triangle, const Vec3& from) {
     std::vector<double> counts(grid * grid, 0), expected(grid * grid, 0);
     for (int i = 0; i < count; ++i) {
         const float pick = uniform(), a = uniform();
-        const LightSample s = sample_light(lights, {from}, pick, {a, uniform()});
+        const LightSample s = sample_light(lights, {from}, LightCoverage::complete, pick, {a, uniform()});
         EXPECT_GT(s.pdf, 0);
-        EXPECT_NEAR(triangle_light_pdf(lights, 0, {from}, s.wi, s.distance) / s.pdf, 1, 5e-3f);
+        EXPECT_NEAR(triangle_light_pdf(lights, 0, {from}, LightCoverage::complete, s.wi, s.distance) / s.pdf, 1, 5e-3f);
         const Vec3 point = triangle.p0 + s.u * triangle.edge1 + s.v * triangle.edge2;
         EXPECT_LT(glm::distance(point, from + s.distance * s.wi), 1e-3f * s.distance);
         const auto cell = [](float x) { return static_cast<size_t>(std::clamp(x, 0.0f, one_minus_epsilon) * grid); };
@@ -75,7 +75,9 @@ double triangle_score(const EmissiveTriangle& triangle, const Vec3& from) {
                 cell_area *
                 static_cast<double>(std::abs(glm::dot(glm::normalize(normal), to / distance)) / (distance * distance));
             expected[static_cast<size_t>(y / fine * grid + x / fine)] +=
-                static_cast<double>(triangle_light_pdf(lights, 0, {from}, to / distance, distance)) * d_omega * count;
+                static_cast<double>(
+                    triangle_light_pdf(lights, 0, {from}, LightCoverage::complete, to / distance, distance)) *
+                d_omega * count;
         }
     }
     // The staircase along the hypotenuse costs accuracy there: compare the sum, then the cells inside.
@@ -104,7 +106,9 @@ TEST(Lights, ThePdfOfATriangleIsOneOverItsSolidAngle) {
     test::BatchMeans inverse_pdf;
     for (int i = 0; i < 20000; ++i) {
         const float a = uniform();
-        inverse_pdf.add(1.0 / static_cast<double>(sample_light(lights, {Vec3(0)}, uniform(), {a, uniform()}).pdf));
+        inverse_pdf.add(1.0 /
+                        static_cast<double>(
+                            sample_light(lights, {Vec3(0)}, LightCoverage::complete, uniform(), {a, uniform()}).pdf));
     }
     EXPECT_NEAR(inverse_pdf.mean(), solid_angle(triangle, Vec3(0)), 4 * inverse_pdf.standard_error() + 1e-4);
 }
@@ -115,10 +119,10 @@ TEST(Lights, AOneSidedEmitterIsNotSampledFromBehind) {
     const Vec3 normal = glm::cross(triangle.edge1, triangle.edge2);
     ASSERT_LT(normal.y, 0);
     const Lights lights = make_lights({triangle});
-    EXPECT_GT(sample_light(lights, {Vec3(0, 0, 0)}, 0.5f, {0.3f, 0.4f}).pdf, 0);
-    EXPECT_EQ(sample_light(lights, {Vec3(0, 4, 0)}, 0.5f, {0.3f, 0.4f}).pdf, 0);
-    EXPECT_GT(triangle_light_pdf(lights, 0, {Vec3(0, 0, 0)}, {0, 1, 0}, 2), 0);
-    EXPECT_EQ(triangle_light_pdf(lights, 0, {Vec3(0, 4, 0)}, {0, -1, 0}, 2), 0);
+    EXPECT_GT(sample_light(lights, {Vec3(0, 0, 0)}, LightCoverage::complete, 0.5f, {0.3f, 0.4f}).pdf, 0);
+    EXPECT_EQ(sample_light(lights, {Vec3(0, 4, 0)}, LightCoverage::complete, 0.5f, {0.3f, 0.4f}).pdf, 0);
+    EXPECT_GT(triangle_light_pdf(lights, 0, {Vec3(0, 0, 0)}, LightCoverage::complete, {0, 1, 0}, 2), 0);
+    EXPECT_EQ(triangle_light_pdf(lights, 0, {Vec3(0, 4, 0)}, LightCoverage::complete, {0, -1, 0}, 2), 0);
 }
 
 TEST(Lights, LightsAreChosenByPower) {
@@ -130,7 +134,8 @@ TEST(Lights, LightsAreChosenByPower) {
     constexpr int count = 40000;
     for (int i = 0; i < count; ++i) {
         const float pick = uniform(), a = uniform();
-        second += sample_light(lights, {Vec3(0.5f, 0, 0)}, pick, {a, uniform()}).wi.x > 0 ? 1 : 0;
+        second +=
+            sample_light(lights, {Vec3(0.5f, 0, 0)}, LightCoverage::complete, pick, {a, uniform()}).wi.x > 0 ? 1 : 0;
     }
     EXPECT_NEAR(second / static_cast<double>(count), 0.75, 4 * std::sqrt(0.75 * 0.25 / count));
 }
@@ -143,18 +148,18 @@ TEST(Lights, AMixtureCoversTheWholeSolidAngle) {
     sky.radiance = ImageRgb32f(1, 1, Vec3(1));
     lights.environment = std::make_shared<const EnvironmentLight>(sky);
     finish_lights(lights, {{-5, -5, -5}, {5, 5, 5}});
-    EXPECT_GT(lights.environment_probability, 0);
-    EXPECT_LT(lights.environment_probability, 1);
+    EXPECT_GT(lights.environment_probability[0], 0);
+    EXPECT_LT(lights.environment_probability[0], 1);
     const double exact = 4 * static_cast<double>(pi) + solid_angle(lights.triangles[0], Vec3(0)) +
                          solid_angle(lights.triangles[1], Vec3(0));
     Uniform uniform;
     test::BatchMeans means;
     for (int i = 0; i < 100000; ++i) {
         const float pick = uniform(), a = uniform();
-        const LightSample s = sample_light(lights, {Vec3(0)}, pick, {a, uniform()});
+        const LightSample s = sample_light(lights, {Vec3(0)}, LightCoverage::complete, pick, {a, uniform()});
         means.add(s.pdf > 0 ? 1.0 / static_cast<double>(s.pdf) : 0.0);
         if (std::isinf(s.distance)) {
-            EXPECT_NEAR(environment_light_pdf(lights, s.wi) / s.pdf, 1, 1e-3f);
+            EXPECT_NEAR(environment_light_pdf(lights, LightCoverage::complete, s.wi) / s.pdf, 1, 1e-3f);
         }
     }
     EXPECT_TRUE(test::within_standard_errors(means, exact, 4))
@@ -166,7 +171,7 @@ TEST(Lights, APointLightFollowsTheInverseSquareLaw) {
     point.position = {0, 3, 0};
     point.intensity = Vec3(18, 9, 0);
     const Lights lights = make_lights({}, {point});
-    const LightSample s = sample_light(lights, {Vec3(0, 0, 0)}, 0.3f, {0.1f, 0.2f});
+    const LightSample s = sample_light(lights, {Vec3(0, 0, 0)}, LightCoverage::complete, 0.3f, {0.1f, 0.2f});
     EXPECT_TRUE(s.is_delta);
     EXPECT_FLOAT_EQ(s.pdf, 1);
     EXPECT_FLOAT_EQ(s.distance, 3);
@@ -188,7 +193,8 @@ TEST(Lights, TheMeanOverTheChoiceIsTheSumOfAllPunctualLights) {
     Uniform uniform;
     test::BatchMeans means;
     for (int i = 0; i < 40000; ++i)
-        means.add(static_cast<double>(sample_light(lights, {Vec3(0)}, uniform(), {0.5f, 0.5f}).weight.g));
+        means.add(static_cast<double>(
+            sample_light(lights, {Vec3(0)}, LightCoverage::complete, uniform(), {0.5f, 0.5f}).weight.g));
     EXPECT_TRUE(test::within_standard_errors(means, 18.0 / 9 + 4.0 / 4 + 0.25, 4))
         << means.mean() << " ± " << means.standard_error();
     EXPECT_LT(means.standard_error(), 0.02);
@@ -204,7 +210,8 @@ TEST(Lights, ASpotFallsOffBetweenItsCones) {
     spot.cos_outer = std::cos(0.6f);
     const Lights lights = make_lights({}, {spot});
     const auto at = [&](float angle) {
-        const LightSample s = sample_light(lights, {Vec3(std::tan(angle), 0, 0)}, 0.5f, {0.5f, 0.5f});
+        const LightSample s =
+            sample_light(lights, {Vec3(std::tan(angle), 0, 0)}, LightCoverage::complete, 0.5f, {0.5f, 0.5f});
         return s.pdf > 0 ? s.weight.r * s.distance * s.distance : 0.0f;
     };
     EXPECT_NEAR(at(0), 1, 1e-4f);
@@ -221,7 +228,7 @@ TEST(Lights, ADirectionalLightIsTheSameEverywhere) {
     sun.intensity = Vec3(7);
     const Lights lights = make_lights({}, {sun});
     for (const Vec3& from : {Vec3(0), Vec3(4, -2, 1)}) {
-        const LightSample s = sample_light(lights, {from}, 0.5f, {0.5f, 0.5f});
+        const LightSample s = sample_light(lights, {from}, LightCoverage::complete, 0.5f, {0.5f, 0.5f});
         EXPECT_LT(glm::distance(s.wi, -sun.direction), 1e-6f);
         EXPECT_LT(glm::distance(s.weight, Vec3(7)), 1e-5f);
         EXPECT_TRUE(std::isinf(s.distance));
@@ -230,7 +237,7 @@ TEST(Lights, ADirectionalLightIsTheSameEverywhere) {
 }
 
 TEST(Lights, NoLightIsNoSample) {
-    EXPECT_EQ(sample_light(make_lights({}), {}, 0.5f, {0.5f, 0.5f}).pdf, 0);
+    EXPECT_EQ(sample_light(make_lights({}), {}, LightCoverage::complete, 0.5f, {0.5f, 0.5f}).pdf, 0);
 }
 
 }  // namespace

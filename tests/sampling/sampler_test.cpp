@@ -37,6 +37,24 @@ TEST(Sampler, IsAPureFunctionAndStaysBelowOne) {
     }
 }
 
+TEST(Sampler, ABatchDrawsTheSamePoints) {
+    for (const SamplerKind kind : {SamplerKind::sobol, SamplerKind::independent}) {
+        PointBatch batch;
+        std::vector<Sampler> samplers;
+        // Not a whole number of vectors, and each at a dimension of its own.
+        for (uint32_t i = 0; i < 61; ++i) {
+            samplers.emplace_back(kind, Vec2u(i, 3 * i), 977 * i, 5);
+            samplers.back().start_dimension(2 * (i % 9));
+            batch.set(i, samplers.back());
+        }
+        batch.draw(samplers.size(), PointBatch::most_pairs);
+        for (size_t i = 0; i < samplers.size(); ++i) {
+            for (size_t pair = 0; pair < PointBatch::most_pairs; ++pair)
+                ASSERT_EQ(batch.point(i, pair), samplers[i].next_2d());
+        }
+    }
+}
+
 TEST(Sampler, PixelsAndReplicatesAreUncorrelated) {
     for (const SamplerKind kind : {SamplerKind::sobol, SamplerKind::independent}) {
         constexpr int n = 20000;
