@@ -45,6 +45,8 @@ ImageRgba8 decode_etc1s_level(const Ktx2File& file, size_t index) {
 }  // namespace
 
 ImageRgba8 decode_ktx2(std::span<const std::byte> bytes, const DecodeLimits& limits) {
+    // Smaller levels are made from this one, as for every picture: what a young picture shows must be the mean of what
+    // it comes to show, in linear light, and of the file's own levels nobody knows how they were made.
     constexpr size_t base_level = 0;
     const Ktx2File file = parse_ktx2(bytes, limits);
     if (file.blocks == Ktx2File::Blocks::etc1s) return decode_etc1s_level(file, base_level);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/io/strokes.h"
 
+#include <limits>
 #include <map>
 
 #include <tbb/blocked_range.h>
@@ -97,30 +98,39 @@ class Placements {
                     const Vec3 placed(world_from_object * glm::dvec4(p, 1.0));
                     if (is_finite(placed)) all.extend(placed);
                 }
-                return true;
             });
         }
         return all.empty() ? 0.0f : glm::length(all.upper - all.lower);
     }
 
-    // The linear part of the first placement of a mesh: widths are the same in every direction of the world, whatever
-    // the node stretches.
-    glm::dmat3 linear_of(MeshId mesh) const {
-        glm::dmat3 out(1.0);
+    // How a mesh is placed where it is placed largest, by volume: the linear part.
+    struct Largest {
+        glm::dmat3 linear{1.0};
+        bool others_are_smaller = false;  // by more than a hundredth along an edge
+    };
+
+    // Widths are the same in every direction of the world, whatever the node stretches.
+    Largest largest_of(MeshId mesh) const {
+        Largest out;
+        double largest = 0.0, smallest = std::numeric_limits<double>::infinity();
         for (const NodeId id : nodes_) {
             if (scene_.nodes[id.value].mesh != mesh) continue;
             for_each_transform(id, [&](const glm::dmat4& world_from_object) {
-                out = glm::dmat3(world_from_object);
-                return false;
+                const glm::dmat3 linear(world_from_object);
+                const double volume = std::abs(glm::determinant(linear));
+                if (!std::isfinite(volume) || !(volume > 1e-30)) return;
+                smallest = std::min(smallest, volume);
+                if (!(volume > largest)) return;
+                largest = volume;
+                out.linear = linear;
             });
-            break;
         }
-        const double determinant = glm::determinant(out);
-        return std::isfinite(determinant) && std::abs(determinant) > 1e-30 ? out : glm::dmat3(1.0);
+        constexpr double hundredth = 1.01 * 1.01 * 1.01;
+        out.others_are_smaller = largest > hundredth * smallest;
+        return out;
     }
 
   private:
-    // Until the action returns false.
     template <typename Action>
     void for_each_transform(NodeId id, const Action& action) const {
         const Node& node = scene_.nodes[id.value];
@@ -129,9 +139,8 @@ class Placements {
             action(world_from_node);
             return;
         }
-        for (const Mat4& node_from_instance : *node.node_from_instance) {
-            if (!action(world_from_node * glm::dmat4(node_from_instance))) return;
-        }
+        for (const Mat4& node_from_instance : *node.node_from_instance)
+            action(world_from_node * glm::dmat4(node_from_instance));
     }
 
     const Scene& scene_;
@@ -287,6 +296,14 @@ void give_strokes_bodies(LoadContext& context, Scene& scene, std::vector<Mesh>& 
     const Detail detail = choose_detail(spheres + tubes);
 
     for (uint32_t m = 0; m < meshes.size(); ++m) {
+        const bool has_strokes = std::any_of(meshes[m].primitives.begin(), meshes[m].primitives.end(),
+                                             [](const auto& p) { return p.shape != PrimitiveShape::surface; });
+        if (!has_strokes) continue;
+        const Placements::Largest largest = placements.largest_of(MeshId{m});
+        if (largest.others_are_smaller) {
+            context.warn(pointer_to("/meshes", m),
+                         "is placed in several sizes: its points and lines are thinner where it is not the largest");
+        }
         for (Primitive& primitive : meshes[m].primitives) {
             if (primitive.shape == PrimitiveShape::surface) continue;
             context.check_cancel();
@@ -299,8 +316,7 @@ void give_strokes_bodies(LoadContext& context, Scene& scene, std::vector<Mesh>& 
             context.charge(vertices, bytes_each + sizeof(uint32_t), where);
             context.charge(triangles, sizeof(Vec3u), where);
             if (vertices >= 0xffffffffu) context.fail(where, "has more points and lines than can be drawn");
-            BodyMaker(detail, 0.5 * static_cast<double>(summary.width_m), placements.linear_of(MeshId{m}))
-                .make(primitive);
+            BodyMaker(detail, 0.5 * static_cast<double>(summary.width_m), largest.linear).make(primitive);
             context.release(vertices * sizeof(uint32_t));
         }
     }

@@ -121,6 +121,24 @@ TEST_F(Strokes, NodesThatStretchOrMirrorDoNotStretchTheWidth) {
     EXPECT_LT(signed_volume(p, world_from_object), 0.0);
 }
 
+// Whichever comes first, the width is that of the largest placement; the smaller copy is thinner, as is said.
+TEST_F(Strokes, OfAMeshInSeveralSizesTheLargestHasTheWidth) {
+    for (const size_t large : {0u, 1u}) {
+        Document document = row(2, 0);
+        document.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}}};
+        document.json["nodes"][large]["scale"] = {4, 4, 4};
+        document.json["scenes"][0]["nodes"] = {0, 1};
+        const Scene scene = load(document);
+        const float radius = 0.5f * scene.strokes.width_m;
+        const Vec3& vertex = first(scene).positions.at(0);
+        EXPECT_NEAR(glm::length(4.0f * vertex), radius, 1e-6f) << "of the sphere around the first point";
+        EXPECT_TRUE(warned("/meshes/0", "placed in several sizes")) << all_warnings();
+        document.json["nodes"][1 - large]["scale"] = {-4, 4, 4};
+        load(document);
+        EXPECT_EQ(all_warnings(), "");
+    }
+}
+
 TEST_F(Strokes, ManyAreThinnerAndCoarser) {
     EXPECT_FLOAT_EQ(stroke_width(10.0f, 100), 0.02f);
     EXPECT_FLOAT_EQ(stroke_width(10.0f, 1'000'000), 0.0025f);
