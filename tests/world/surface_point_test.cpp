@@ -56,6 +56,25 @@ TEST(SurfacePoint, NormalMapTiltsAlongUAndAgainstV) {
         0.01f);
 }
 
+// A sphere that its node stretches and mirrors is an ellipsoid: its normals are along (x/a², y/b², z/c²).
+TEST(SurfacePoint, NormalsOfStretchedThingsStandOnThem) {
+    for (const Vec3 axes : {Vec3(1, 2, 0.5f), Vec3(-1, 2, 0.5f)}) {
+        Scene scene;
+        test::add_object(scene, test::make_sphere(Vec3(0), 1, 128, 64), test::add_lambert(scene, Vec3(1)),
+                         glm::scale(Mat4(1), axes));
+        const auto world = test::build(std::move(scene));
+        for (const Vec3 from : {Vec3(0.4f, 1, 3), Vec3(-2, 0.3f, -1.1f), Vec3(0.2f, -3, 0.4f)}) {
+            const Vec3 direction = -glm::normalize(from);
+            const Hit hit = world->accel->intersect({2.0f * from, direction, infinity}, 0);
+            ASSERT_TRUE(hit.valid());
+            const SurfacePoint point = make_surface_point(*world, hit, -direction);
+            const Vec3 expected = glm::normalize(point.position / (axes * axes));
+            EXPECT_GT(glm::dot(point.shading.normal, expected), 0.9995f);
+            EXPECT_GT(glm::dot(point.geometric_normal, expected), 0.99f);
+        }
+    }
+}
+
 TEST(SurfacePoint, ShadingNormalNeverFacesAway) {
     const MappedQuad quad(Rgba8(255, 128, 128, 255));  // tilted by 90°
     for (const Vec3 direction : {Vec3(1, 0, -0.2f), Vec3(-1, 0, -0.2f), Vec3(0, 1, -1), Vec3(1, 0, 0.3f)}) {
