@@ -24,13 +24,33 @@ bool is_empty(const AccelGeometry& geometry) {
     return geometry.triangles.empty() || geometry.positions.empty();
 }
 
+// Whether all corners of some triangle are in one place, or so near that Embree's arithmetic takes them for it.
+bool has_point(std::span<const Vec3> positions, std::span<const Vec3u> triangles) {
+    constexpr float nothing = 1e-30f;
+    return std::any_of(triangles.begin(), triangles.end(), [&](const Vec3u& t) {
+        const Vec3& p = positions[t.x];
+        return max_component(glm::max(glm::abs(positions[t.y] - p), glm::abs(positions[t.z] - p))) < nothing;
+    });
+}
+
+// Embree joins the trees of a shape's geometries by their extent, and its assertions end the process where what it
+// joins has none. Such a pose gets a tree made from its triangles.
+bool can_be_refitted(const AccelShape& shape) {
+    const auto count = std::count_if(shape.geometries.begin(), shape.geometries.end(),
+                                     [](const AccelGeometry& geometry) { return !is_empty(geometry); });
+    if (count < 2) return true;
+    return std::none_of(shape.geometries.begin(), shape.geometries.end(), [](const AccelGeometry& geometry) {
+        return has_point(geometry.positions, geometry.triangles) ||
+               has_point(geometry.rest_positions, geometry.triangles);
+    });
+}
+
 // Lays out a tree of its own for every shape that deforms, for only two-level scenes can be refitted.
-std::unique_ptr<AccelTree> build_tree(AccelFamily& family, const AccelShape& shape, bool with_opacity,
+std::unique_ptr<AccelTree> build_tree(AccelFamily& family, const AccelShape& shape, bool deforms, bool with_opacity,
                                       BuildProgress& progress) {
-    const bool deforms = shape.rest != nullptr;
     auto tree = std::make_unique<AccelTree>();
     tree->owner = deforms ? nullptr : shape.owner;
-    tree->rest = shape.rest;
+    if (deforms) tree->rest = shape.rest;
     tree->scene = deforms ? new_scene(family, RTC_BUILD_QUALITY_LOW, RTC_SCENE_FLAG_DYNAMIC)
                           : new_scene(family, RTC_BUILD_QUALITY_MEDIUM, RTC_SCENE_FLAG_NONE);
     for (uint32_t i = 0; i < shape.geometries.size(); ++i) {
@@ -172,12 +192,13 @@ std::shared_ptr<const AccelTree> make_tree(const std::shared_ptr<AccelFamily>& f
         if (shape.rest && geometry.rest_positions.size() != geometry.positions.size())
             throw AccelError("a shape that deforms has not as many vertices at rest as in its pose");
     }
-    std::unique_ptr<AccelTree> tree = shape.rest ? family->take_spare(shape.rest.get()) : nullptr;
+    const bool refits = shape.rest != nullptr && can_be_refitted(shape);
+    std::unique_ptr<AccelTree> tree = refits ? family->take_spare(shape.rest.get()) : nullptr;
     if (!tree) {
-        tree = build_tree(*family, shape, with_opacity, progress);
+        tree = build_tree(*family, shape, refits, with_opacity, progress);
         ++built;
     }
-    if (shape.rest && !progress.cancelled()) {
+    if (refits && !progress.cancelled()) {
         refit_tree(*family, *tree, shape, with_opacity, progress);
         ++refitted;
     }

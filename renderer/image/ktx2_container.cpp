@@ -161,6 +161,7 @@ void read_levels(std::span<const std::byte> file, const Header& header, Ktx2File
 }  // namespace
 
 Ktx2File parse_ktx2(std::span<const std::byte> bytes, const DecodeLimits& limits) {
+    if (sniff_format(bytes) != ImageFormat::ktx2) throw_broken("it does not begin with the identifier of KTX 2.0");
     const Header header(bytes);
     check_type(header);
     check_size(header.width, header.height, limits);

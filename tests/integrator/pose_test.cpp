@@ -107,6 +107,34 @@ TEST(Pose, IsTheWorldMadeFromNothingToTheBit) {
     }
 }
 
+// A body of two parts that both vanish in a point, wholly or for some triangles, and come back.
+TEST(Pose, WhatVanishesInAPointComesBack) {
+    Scene rest = moving_scene();
+    Mesh two_parts = rest.mesh(rest.instances[body].mesh);
+    two_parts.primitives.push_back(two_parts.primitives[0]);
+    for (Vec3& p : two_parts.primitives[1].positions)
+        p += Vec3(0.3f, 0.8f, 0);
+    rest.meshes[rest.instances[body].mesh.value] = std::make_shared<const Mesh>(two_parts);
+    const auto with_share = [&](size_t vanished) {
+        auto scene = std::make_shared<Scene>(*at(rest, 1));
+        Mesh mesh = two_parts;
+        for (Primitive& primitive : mesh.primitives) {
+            for (size_t i = 0; i < primitive.positions.size() * vanished / 2; ++i)
+                primitive.positions[i] = Vec3(0.1f);
+        }
+        scene->meshes.back() = std::make_shared<const Mesh>(std::move(mesh));
+        return scene;
+    };
+    std::shared_ptr<const World> world = build_world(with_share(0));
+    EXPECT_EQ(world->accel->work().trees_refitted, 1u);
+    for (const size_t vanished : {1u, 2u, 0u}) {
+        const auto scene = with_share(vanished);
+        world = with_pose(world, scene);
+        EXPECT_EQ(picture(*world), picture(*build_world(scene))) << vanished;
+        EXPECT_EQ(world->accel->work().trees_refitted, vanished == 0 ? 1u : 0u);
+    }
+}
+
 TEST(Pose, MakesOnlyWhatMoved) {
     const Scene rest = moving_scene();
     const auto first = build_world(at(rest, 0));
