@@ -19,9 +19,11 @@ constexpr uint32_t vertex_dimensions = 8;
 // Radius of the Blackman-Harris window in pixels.
 constexpr float filter_radius = 1.5f;
 
-// Roulette starts after this many scattering events, and never lets a path survive with certainty: a closed scene
-// without absorption must end too.
+// Roulette starts after this many surfaces, is mild to paths that still carry a third of their light (a weak path that
+// lives costs less than the noise of one that is made up for), and never lets a path survive with certainty: a closed
+// scene without absorption must end too.
 constexpr uint32_t roulette_depth = 3;
+constexpr float survival_per_throughput = 3.0f;
 constexpr float max_survival = 0.95f;
 
 // The width of the cone around a sample of a lobe, in units of the root of the solid angle that it stands for.
@@ -323,9 +325,10 @@ ShadowRequest shade(const World& world, const IntegratorSettings& settings, cons
         path.ray.t_max = infinity;
     }
 
-    // Russian roulette: a path lives on with about the share of light that it still carries.
+    // Russian roulette: a path lives on by the share of light that it still carries.
     if (settings.russian_roulette && path.segments >= roulette_depth) {
-        const float survival = std::min(max_component(glm::abs(path.throughput)) * path.eta_scale, max_survival);
+        const float carried = max_component(glm::abs(path.throughput)) * path.eta_scale;
+        const float survival = std::min(survival_per_throughput * carried, max_survival);
         if (u.roulette >= survival) {
             path.alive = false;
         } else {

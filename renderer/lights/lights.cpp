@@ -10,7 +10,7 @@ namespace {
 // Triangles that are small from where they are seen look the same by area; those between these solid angles are sampled
 // uniformly in what the receiver sees; larger ones (the receiver all but touches them) are beyond the method's
 // precision.
-constexpr float small_size_squared = 0.1f;  // of the edges, in distances
+constexpr float small_size_squared = 0.5f;  // of the edges, in distances
 constexpr double smallest_solid_angle = 1e-3;
 constexpr double largest_solid_angle = 6.2;
 
