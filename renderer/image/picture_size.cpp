@@ -68,8 +68,8 @@ std::optional<PictureSize> picture_size(std::span<const std::byte> encoded) {
         return PictureSize{head.little_endian_32(20), head.little_endian_32(24), false};
     }
     WebPBitstreamFeatures webp;
-    if (head.begins_with("RIFF", 4) && WebPGetFeatures(reinterpret_cast<const uint8_t*>(encoded.data()), encoded.size(),
-                                                       &webp) == VP8_STATUS_OK) {
+    if (head.begins_with("RIFF", 4) &&
+        WebPGetFeatures(reinterpret_cast<const uint8_t*>(encoded.data()), encoded.size(), &webp) == VP8_STATUS_OK) {
         return PictureSize{static_cast<uint32_t>(webp.width), static_cast<uint32_t>(webp.height), webp.has_alpha == 0};
     }
     return std::nullopt;

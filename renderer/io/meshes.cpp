@@ -272,7 +272,8 @@ void PrimitivesLoader::load(LoadContext& context, AccessorReader& accessors, siz
     for (size_t i = first; i < last; ++i) {
         context.check_cancel();
         const PrimitiveSource& each = sources_[i];
-        out_[i] = PrimitiveLoader(context, accessors, draco, scene_, *each.source, each.where, each.skinned).load();
+        PrimitiveLoader loader(context, accessors, draco, scene_, *each.source, each.where, each.skinned);
+        if (std::optional<Primitive> loaded = loader.load()) out_[i].emplace(std::move(*loaded));
     }
 }
 
