@@ -251,11 +251,12 @@ void AssetImages::take(Scene& scene) {
         }
         state.lost = true;
         scene.images[each.image].alpha = ImageAlpha::unknown;
-        const char* consequence = state.replaceable ? "; the texture's other image is used in its place"
-                                                    : "; white is used in its place";
+        const char* consequence =
+            state.replaceable ? "; the texture's other image is used in its place" : "; white is used in its place";
         const bool no_source = !each.unread.empty() && !layout_.images[each.image].uri;
         const bool of_uri = !no_source && (!each.unread.empty() || result.unread);
-        context_.warn(of_uri ? where + "/uri" : where, (each.unread.empty() ? result.error : each.unread) + consequence);
+        context_.warn(of_uri ? where + "/uri" : where,
+                      (each.unread.empty() ? result.error : each.unread) + consequence);
         context_.release(result.booked_bytes);
     }
     begun_.clear();
