@@ -39,7 +39,7 @@ class AssetImages {
     struct Begun {
         uint32_t image = 0;
         EncodedImage source;
-        std::string unread;        // why the source cannot be had
+        std::string unread;         // why the source cannot be had
         uint64_t source_bytes = 0;  // booked
     };
     void note_uses(const Scene& scene);

@@ -133,8 +133,7 @@ ImageDecoding::~ImageDecoding() {
 std::vector<DecodedImage> ImageDecoding::finish() {
     const auto report = [&] {
         if (!impl_->options.progress || impl_->images.empty()) return;
-        impl_->options.progress(static_cast<float>(impl_->finished.load()) /
-                                static_cast<float>(impl_->images.size()));
+        impl_->options.progress(static_cast<float>(impl_->finished.load()) / static_cast<float>(impl_->images.size()));
     };
     impl_->arena.execute([&] {
         report();

@@ -16,7 +16,8 @@ float stroke_width(float scene_diagonal, uint64_t count);
 // Replaces the degenerate triangles by which assemble_triangles names points and segments with bodies made of
 // triangles, the coarser the more there are. All that a vertex carries goes to the vertices of its body; normals are
 // those of spheres and tubes. A mesh that is placed in several sizes has the width where it is largest, and a
-// warning says so. Fills scene.strokes; needs the scene's nodes. Throws LoadError where the memory limit does not allow the bodies.
+// warning says so. Fills scene.strokes; needs the scene's nodes. Throws LoadError where the memory limit does not allow
+// the bodies.
 void give_strokes_bodies(LoadContext& context, Scene& scene, std::vector<Mesh>& meshes);
 
 }  // namespace candela

@@ -79,8 +79,9 @@ std::shared_ptr<World> compile(std::shared_ptr<const Scene> scene_pointer, const
         if (mesh.primitives.empty()) continue;
         const TransformKind kind = classify_transform(instance.world_from_object);
         if (kind == TransformKind::unusable) {
-            world->warnings.push_back(instance_name(scene, instance) +
-                                      ": its transform is not finite, leads too far away or leaves no area, so it is not drawn");
+            world->warnings.push_back(
+                instance_name(scene, instance) +
+                ": its transform is not finite, leads too far away or leaves no area, so it is not drawn");
             continue;
         }
         const ShapeTable::Place place = table.place(instance, kind);

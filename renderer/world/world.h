@@ -74,7 +74,7 @@ struct World {
     WorldShape fixed;
     std::vector<WorldShape> shapes;
     std::vector<ImageAlpha> image_alpha;  // of each image, where it was looked at
-    std::shared_ptr<const Accel> accel;  // its functions look at this world
+    std::shared_ptr<const Accel> accel;   // its functions look at this world
     Bounds3 bounds;
     uint64_t triangle_count = 0;        // as placed
     std::vector<std::string> warnings;  // dropped instances and the like

@@ -23,8 +23,8 @@ class HeightField {
         for (int octave = 0; octave < 7; ++octave) {
             for (int k = 0; k < 3; ++k) {
                 const double frequency = 0.35 * std::pow(2.0, octave), turn = angle();
-                waves_.push_back({frequency * std::cos(turn), frequency * std::sin(turn), angle(),
-                                  0.5 * std::pow(1.7, -octave)});
+                waves_.push_back(
+                    {frequency * std::cos(turn), frequency * std::sin(turn), angle(), 0.5 * std::pow(1.7, -octave)});
             }
         }
     }
