@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+// candela_noise [--json FILE] [--compare FILE] [SCENE…]: noise × time of each scene, each technique switched off in
+// turn, and throughput beside what the accelerator alone could trace. Prints Markdown, writes JSON, and compares with
+// an earlier run's JSON.
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "renderer/math/frame.h"
+#include "renderer/math/hash.h"
+#include "renderer/sampling/warp.h"
+#include "tests/benchmarks/made_scenes.h"
+#include "tests/benchmarks/shared_scenes.h"
+
+namespace candela::bench {
+namespace {
+
+constexpr uint32_t side = 128;     // pixels of the square picture
+constexpr uint32_t spp = 64;       // of one picture
+constexpr uint32_t seeds = 5;      // pictures whose spread is the noise
+constexpr uint32_t max_depth = 9;  // "8 bounces" of other renderers
+constexpr uint32_t tile = 16;
+
+const std::vector<std::pair<const char*, const char*>> scenes{
+    {"cornell_box", "assets/cornell_box.glb"},
+    {"many_lights", "assets/many_lights.glb"},
+    {"veach_plates", "assets/veach_plates.glb"},
+    {"terrain", ""},
+    {"FlightHelmet", "models/FlightHelmet/FlightHelmet.gltf"}};
+
+struct Variant {
+    const char* name;
+    IntegratorSettings settings;
+};
+
+std::vector<Variant> variants() {
+    IntegratorSettings usual;
+    usual.max_depth = max_depth;
+    usual.filter = PixelFilter::box;
+    std::vector<Variant> out(6, {"as it is", usual});
+    out[1].name = "independent samples";
+    out[1].settings.sampler = SamplerKind::independent;
+    out[2].name = "light samples alone";
+    out[2].settings.estimator = Estimator::light;
+    out[3].name = "directions alone";
+    out[3].settings.estimator = Estimator::bsdf;
+    out[4].name = "no roulette";
+    out[4].settings.russian_roulette = false;
+    out[5].name = "textures not filtered";
+    out[5].settings.filter_textures = false;
+    return out;
+}
+
+// Of this thread.
+double cpu_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+struct Picture {
+    std::vector<float> luminance = std::vector<float>(size_t{side} * side);
+    double cpu_s = 0;
+    RayCounts rays;
+};
+
+Picture render(const LoadedScene& scene, const IntegratorSettings& settings, uint32_t samples) {
+    Picture out;
+    const View view = view_of(scene, Vec2u(side));
+    std::vector<PixelSample> wanted(size_t{tile} * tile);
+    std::vector<RadianceSample> got(wanted.size());
+    const double start = cpu_seconds();
+    for (uint32_t index = 0; index < samples; ++index) {
+        for (uint32_t ty = 0; ty < side; ty += tile) {
+            for (uint32_t tx = 0; tx < side; tx += tile) {
+                for (uint32_t i = 0; i < tile * tile; ++i)
+                    wanted[i] = {static_cast<uint16_t>(tx + i % tile), static_cast<uint16_t>(ty + i / tile), index};
+                trace_batch(*scene.world, view, settings, wanted, got, out.rays);
+                for (size_t i = 0; i < wanted.size(); ++i) {
+                    out.luminance[size_t{wanted[i].y} * side + wanted[i].x] +=
+                        luminance(got[i].radiance) / static_cast<float>(samples);
+                }
+            }
+        }
+    }
+    out.cpu_s = cpu_seconds() - start;
+    return out;
+}
+
+double median(std::vector<double> values) {
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+    return values[values.size() / 2];
+}
+
+// Mean over the pixels of variance / (mean² + (0.1 · mean of the picture)²), without the worst thousandth.
+double relative_mse(const std::vector<Picture>& pictures) {
+    const size_t pixels = size_t{side} * side;
+    const auto n = static_cast<double>(pictures.size());
+    std::vector<double> mean(pixels, 0), variance(pixels, 0);
+    double whole = 0;
+    for (size_t i = 0; i < pixels; ++i) {
+        for (const Picture& each : pictures)
+            mean[i] += static_cast<double>(each.luminance[i]) / n;
+        for (const Picture& each : pictures) {
+            const double difference = static_cast<double>(each.luminance[i]) - mean[i];
+            variance[i] += difference * difference / (n - 1);
+        }
+        whole += mean[i] / static_cast<double>(pixels);
+    }
+    std::vector<double> relative(pixels);
+    for (size_t i = 0; i < pixels; ++i)
+        relative[i] = variance[i] / std::max(mean[i] * mean[i] + 0.01 * whole * whole, 1e-30);
+    std::sort(relative.begin(), relative.end());
+    double sum = 0;
+    const size_t kept = pixels - pixels / 1000;
+    for (size_t i = 0; i < kept; ++i)
+        sum += relative[i];
+    return sum / static_cast<double>(kept);
+}
+
+// Paths per CPU second that the accelerator alone traces: cosine-distributed bounces off every surface, at each a ray
+// to a point of some lamp (straight up where there is none), and no shading at all.
+double limit_paths_per_s(const LoadedScene& scene) {
+    const World& world = *scene.world;
+    const View view = view_of(scene, Vec2u(side));
+    std::vector<double> rates;
+    float sink = 0;
+    for (uint32_t repeat = 0; repeat < 5; ++repeat) {
+        const double start = cpu_seconds();
+        for (uint32_t i = 0; i < side * side; ++i) {
+            uint32_t state = hash_combine(repeat, i);
+            const auto uniform = [&] { return unit_float(state = hash_u32(state + 0x9e3779b9u)); };
+            const float u = uniform(), v = uniform();
+            const Vec2 at((static_cast<float>(i % side) + u) / side, (static_cast<float>(i / side) + v) / side);
+            Ray ray = generate_ray(view.camera, 1.0f, at, Vec2(0.5f));
+            for (uint32_t depth = 0; depth < max_depth; ++depth) {
+                const Hit hit = world.accel->intersect(ray, 0);
+                if (!hit.valid()) break;
+                const Surface& surface = world.surfaces[hit.surface];
+                const Vec3u index = surface.primitive->triangles[hit.triangle];
+                const Vec3 p0 = surface.positions[index.x];
+                const Vec3 cross = glm::cross(surface.positions[index.y] - p0, surface.positions[index.z] - p0);
+                Vec3 normal = glm::normalize(Mat3(world.transforms[surface.transform].world_from_normal) * cross);
+                if (glm::dot(normal, ray.direction) > 0) normal = -normal;
+                const Vec3 from = ray.origin + hit.distance * ray.direction + 1e-4f * normal;
+                Ray shadow;
+                shadow.origin = from;
+                shadow.direction = Vec3(0, 1, 0);
+                if (const std::vector<EmissiveTriangle>& lamps = world.lights.triangles; !lamps.empty()) {
+                    const EmissiveTriangle& lamp = lamps[std::min(
+                        static_cast<size_t>(uniform() * static_cast<float>(lamps.size())), lamps.size() - 1)];
+                    const float root = std::sqrt(uniform()), along = uniform();
+                    const Vec3 to_lamp = lamp.p0 + root * (1 - along) * lamp.edge1 + root * along * lamp.edge2 - from;
+                    shadow.t_max = 0.9999f * glm::length(to_lamp);
+                    shadow.direction = glm::normalize(to_lamp);
+                }
+                sink += world.accel->transmittance(shadow).x;
+                const float a = uniform();
+                ray = {from, OrthonormalFrame::from_normal(normal).world_from_local(
+                                 sample_cosine_hemisphere({a, uniform()}))};
+            }
+        }
+        rates.push_back(side * side / (cpu_seconds() - start));
+    }
+    // Looked at, so that the work is not left out.
+    return sink >= 0 ? median(rates) : 0;
+}
+
+const LoadedScene* load(const std::string& name, const std::string& file) {
+    return name == "terrain" ? loaded_scene(terrain_file().string()) : loaded_scene(file);
+}
+
+nlohmann::json measure_scene(const std::string& name, const LoadedScene& scene) {
+    const std::vector<Variant> all = variants();
+    std::vector<std::vector<Picture>> pictures(all.size());
+    // Interleaved, so that what else the machine does falls on all alike.
+    for (uint32_t seed = 0; seed < seeds; ++seed) {
+        for (size_t k = 0; k < all.size(); ++k) {
+            IntegratorSettings settings = all[k].settings;
+            settings.seed = seed + 1;
+            pictures[k].push_back(render(scene, settings, spp));
+        }
+    }
+    const auto cpu_of = [&](size_t k) {
+        std::vector<double> times;
+        for (const Picture& each : pictures[k])
+            times.push_back(each.cpu_s);
+        return median(times);
+    };
+    const auto product_of = [&](size_t k) { return relative_mse(pictures[k]) * cpu_of(k); };
+
+    nlohmann::json out;
+    const double paths = static_cast<double>(side) * side * spp;
+    const double limit = limit_paths_per_s(scene), usual = product_of(0);
+    out["limit_paths_per_s"] = limit;
+    out["paths_per_s_without_roulette"] = paths / cpu_of(4);
+    fmt::print(
+        "\n{}: {:.3f} million paths per CPU second, {:.3f} without roulette, {:.0f} % of the {:.3f} that the "
+        "accelerator alone traces\n\n| {} | CPU s | relMSE | relMSE × CPU s | against as it is |\n| --- | --- | "
+        "--- | --- | --- |\n",
+        name, 1e-6 * paths / cpu_of(0), 1e-6 * paths / cpu_of(4), 100 * paths / cpu_of(4) / limit, 1e-6 * limit, name);
+    for (size_t k = 0; k < all.size(); ++k) {
+        const double product = product_of(k);
+        out["noise_times_s"][all[k].name] = product;
+        fmt::print("| {} | {:.3f} | {:.6f} | {:.6f} | {:.2f} |\n", all[k].name, cpu_of(k), relative_mse(pictures[k]),
+                   product, product / usual);
+    }
+    std::fflush(stdout);
+    return out;
+}
+
+void print_comparison(const nlohmann::json& now, const nlohmann::json& before) {
+    fmt::print("\n| scene | noise × time, now / before | paths per second, now / before |\n| --- | --- | --- |\n");
+    for (const auto& [scene, figures] : now.items()) {
+        if (!before.contains(scene)) continue;
+        const auto ratio = [](const nlohmann::json& a, const nlohmann::json& b) {
+            return a.get<double>() / b.get<double>();
+        };
+        fmt::print("| {} | {:.3f} | {:.3f} |\n", scene,
+                   ratio(figures["noise_times_s"]["as it is"], before[scene]["noise_times_s"]["as it is"]),
+                   ratio(figures["paths_per_s_without_roulette"], before[scene]["paths_per_s_without_roulette"]));
+    }
+}
+
+int run(int argc, char** argv) {
+    std::string json_file, compare_file;
+    std::vector<std::string> only;
+    for (int i = 1; i < argc; ++i) {
+        const std::string argument = argv[i];
+        if ((argument == "--json" || argument == "--compare") && i + 1 < argc) {
+            (argument == "--json" ? json_file : compare_file) = argv[++i];
+        } else if (argument.starts_with("-")) {
+            fmt::print(stderr, "usage: candela_noise [--json FILE] [--compare FILE] [SCENE…]\n");
+            return 2;
+        } else {
+            only.push_back(argument);
+        }
+    }
+    nlohmann::json before;
+    if (!compare_file.empty()) before = nlohmann::json::parse(std::ifstream(compare_file));
+
+    nlohmann::json now = nlohmann::json::object();
+    for (const auto& [name, file] : scenes) {
+        if (!only.empty() && std::find(only.begin(), only.end(), name) == only.end()) continue;
+        if (const LoadedScene* scene = load(name, file)) now[name] = measure_scene(name, *scene);
+    }
+    if (!json_file.empty()) std::ofstream(json_file) << now.dump(2) << '\n';
+    if (!before.is_null()) print_comparison(now, before);
+    return 0;
+}
+
+}  // namespace
+}  // namespace candela::bench
+
+int main(int argc, char** argv) {
+    try {
+        return candela::bench::run(argc, argv);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "candela_noise: {}\n", error.what());
+        return 1;
+    }
+}
