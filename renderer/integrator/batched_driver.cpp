@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "renderer/integrator/stages.h"
+#include "renderer/world/surface_point.h"
 
 namespace candela {
 
@@ -42,10 +43,12 @@ bool trace_batch(const World& world, const View& view, const IntegratorSettings&
         for (size_t k = 0; k < alive; ++k) {
             const size_t i = batch.alive[k];
             batch.hits[i] = extend(world, batch.paths[i], counts);
+            prefetch_triangle(world, batch.hits[i]);
         }
         // Draw the random numbers of all vertices.
         if (cancelled()) return false;
         for (size_t k = 0; k < alive; ++k) {
+            prefetch_vertices(world, batch.hits[batch.alive[k]]);
             PathState& path = batch.paths[batch.alive[k]];
             start_vertex(path);
             batch.points.set(k, path.sampler);

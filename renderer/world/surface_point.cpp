@@ -160,6 +160,22 @@ SurfacePoint make_surface_point(const World& world, const Hit& hit, const Vec3& 
     return point;
 }
 
+void prefetch_triangle(const World& world, const Hit& hit) noexcept {
+    if (hit.valid()) __builtin_prefetch(&world.surfaces[hit.surface].primitive->triangles[hit.triangle]);
+}
+
+void prefetch_vertices(const World& world, const Hit& hit) noexcept {
+    if (!hit.valid()) return;
+    const Surface& surface = world.surfaces[hit.surface];
+    const Primitive& primitive = *surface.primitive;
+    const Vec3u index = primitive.triangles[hit.triangle];
+    for (const uint32_t i : {index.x, index.y, index.z}) {
+        __builtin_prefetch(surface.positions + i);
+        if (!primitive.normals.empty()) __builtin_prefetch(&primitive.normals[i]);
+        if (!primitive.uv[0].empty()) __builtin_prefetch(&primitive.uv[0][i]);
+    }
+}
+
 Vec2 texture_uv(const TextureRef& ref, const Vec2 uv[2]) noexcept {
     return ref.uv_transform * Vec3(uv[ref.uv_set & 1u], 1.0f);
 }

@@ -36,6 +36,11 @@ struct RayFootprint {
 SurfacePoint make_surface_point(const World& world, const Hit& hit, const Vec3& wo,
                                 const RayFootprint& footprint = {}) noexcept;
 
+// What make_surface_point will read of a large mesh, asked for early: first where the triangle's vertices are, later
+// the vertices. Only for speed.
+void prefetch_triangle(const World& world, const Hit& hit) noexcept;
+void prefetch_vertices(const World& world, const Hit& hit) noexcept;
+
 // The texture coordinate of a use of a texture, at a point whose coordinate sets are known, or at
 // (1-u-v)·p0 + u·p1 + v·p2 of a triangle.
 Vec2 texture_uv(const TextureRef& ref, const Vec2 uv[2]) noexcept;
