@@ -74,6 +74,22 @@ void add_limit_options(CLI::App& command, LoadLimits& limits) {
         ->group(group);
 }
 
+// An option that takes one of a few words.
+template <typename Value>
+void take_one_of(const std::map<std::string, Value>& values, CLI::Option* option) {
+    std::string words;
+    for (const auto& each : values)
+        words += (words.empty() ? "" : "|") + each.first;
+    option->type_name(words)->transform(CLI::Validator(
+        [values, words](std::string& text) {
+            const auto found = values.find(text);
+            if (found == values.end()) return text + " is not one of " + words;
+            text = CLI::detail::value_string(found->second);
+            return std::string();
+        },
+        ""));
+}
+
 // "0:23"
 FrameRange parse_frames(const std::string& text) {
     FrameRange out;
@@ -132,10 +148,9 @@ void add_render_options(CLI::App& command, RenderOptions& options, RawRenderOpti
         ->check(CLI::Range(0u, 64u))
         ->check([](const std::string& text) { return text == "1" || text == "2" ? "must be 0 or at least 3" : ""; })
         ->type_name("N");
-    command
-        .add_option("--projection", options.projection,
-                    "perspective, orthographic or panorama: the whole sphere (the camera's own)")
-        ->transform(CLI::CheckedTransformer(projections));
+    take_one_of(projections,
+                command.add_option("--projection", options.projection,
+                                   "perspective, orthographic or panorama: the whole sphere (the camera's own)"));
     command.add_option("--spp", options.spp, "samples per pixel")->check(CLI::Range(1u, 1u << 30))->type_name("N");
     command.add_option("--time", options.seconds, "seconds of rendering")->check(CLI::PositiveNumber)->type_name("S");
     command.add_option("--until-error", options.until_error_percent, "estimated mean relative error in percent")
@@ -146,12 +161,11 @@ void add_render_options(CLI::App& command, RenderOptions& options, RawRenderOpti
                     "scattering events at most; 1 = direct light, 0 = no limit")
         ->check(CLI::Range(0u, 1u << 20))
         ->type_name("N");
-    command.add_option("--estimator", options.integrator.estimator, "mis, light or bsdf (mis)")
-        ->transform(CLI::CheckedTransformer(estimators));
-    command.add_option("--sampler", options.integrator.sampler, "sobol or independent (sobol)")
-        ->transform(CLI::CheckedTransformer(samplers));
-    command.add_option("--filter", options.integrator.filter, "blackman-harris or box (blackman-harris)")
-        ->transform(CLI::CheckedTransformer(filters));
+    take_one_of(estimators,
+                command.add_option("--estimator", options.integrator.estimator, "mis, light or bsdf (mis)"));
+    take_one_of(samplers, command.add_option("--sampler", options.integrator.sampler, "sobol or independent (sobol)"));
+    take_one_of(filters,
+                command.add_option("--filter", options.integrator.filter, "blackman-harris or box (blackman-harris)"));
     command.add_option("--clamp-indirect", options.integrator.clamp_indirect, "firefly clamp; biased (off)")
         ->check(CLI::NonNegativeNumber)
         ->type_name("V");
@@ -169,8 +183,7 @@ void add_render_options(CLI::App& command, RenderOptions& options, RawRenderOpti
     command.add_option("--background", raw.background, "what camera rays that leave the scene see (env)")
         ->type_name("env|R,G,B|transparent");
     command.add_option("--exposure", options.tone.exposure_ev, "display only (0)")->type_name("EV");
-    command.add_option("--tonemap", options.tone.curve, "linear, neutral, aces or agx (neutral)")
-        ->transform(CLI::CheckedTransformer(curves));
+    take_one_of(curves, command.add_option("--tonemap", options.tone.curve, "linear, neutral, aces or agx (neutral)"));
     command.add_option("--scene", options.scene_index, "which scene of the file")->type_name("N");
     command.add_option("--variant", options.variant, "which material variant of the file")->type_name("NAME");
     command.add_option("--animation", options.animation, "poses the scene by that animation of the file")
@@ -195,9 +208,8 @@ void add_viewer_options(CLI::App& command, RenderOptions& options) {
                                                {"samples", PixelMap::samples},
                                                {"rays", PixelMap::rays},
                                                {"bounces", PixelMap::bounces}};
-    command
-        .add_option("--map", options.map, "beside the picture, as colours: error, samples, rays or bounces of a pixel")
-        ->transform(CLI::CheckedTransformer(maps));
+    take_one_of(maps, command.add_option("--map", options.map,
+                                         "beside the picture, as colours: error, samples, rays or bounces of a pixel"));
     command.add_option("--wipe", options.wipe, "where the map begins: 0 at the left edge, 1 at the right (0.5)")
         ->check(CLI::Range(0.0f, 1.0f))
         ->type_name("X");

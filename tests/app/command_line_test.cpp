@@ -48,6 +48,13 @@ TEST_F(CommandLine, RendersEveryFormatAndRecordsTheRun) {
         EXPECT_NE(header.find(name), std::string::npos) << name;
 }
 
+TEST_F(CommandLine, ChoicesAreNamed) {
+    const Outcome outcome = run("render -o " + file("a.png") + tiny + "--estimator foo");
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.text.find("foo is not one of bsdf|light|mis"), std::string::npos) << outcome.text;
+    EXPECT_NE(run("render --help").text.find("--estimator bsdf|light|mis"), std::string::npos);
+}
+
 TEST_F(CommandLine, ThePictureDoesNotDependOnThreads) {
     run("render -o " + file("a.exr") + tiny + "-t 1");
     run("render -o " + file("b.exr") + tiny + "-t 3");
