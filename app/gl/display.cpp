@@ -61,7 +61,7 @@ Vec2u Display::upload_image(const ImageRgba32f& image, GLuint texture, Vec2u ext
 bool Display::upload(const Frame& frame) {
     if (Vec2u(frame.image.width(), frame.image.height()) == extent_ && frame.serial == serial_) return false;
     extent_ = upload_image(frame.image, texture_, extent_);
-    has_maps_ = frame.maps.size() > 0;
+    has_maps_ = !frame.maps.empty();
     if (has_maps_) maps_extent_ = upload_image(frame.maps, maps_texture_, maps_extent_);
     serial_ = frame.serial;
     return true;

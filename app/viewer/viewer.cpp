@@ -318,7 +318,7 @@ void Viewer::update_map() {
 }
 
 bool Viewer::map_is_missing() const {
-    return model_.map.shown && frame_ != nullptr && frame_->maps.size() == 0 && model_.status.error.empty();
+    return model_.map.shown && frame_ != nullptr && frame_->maps.empty() && model_.status.error.empty();
 }
 
 // Where the frame that is shown stands in the window.
