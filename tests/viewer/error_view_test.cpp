@@ -74,6 +74,7 @@ TEST_F(ViewerTest, VShowsTheErrorToTheRightOfTheWipeAndHidesItAgain) {
     press(Key::v);
     finish();
     const ImageRgba8 mapped = picture();
+    ASSERT_GT(viewer_->frame()->maps.size(), 0u);
     EXPECT_EQ(changed(plain, mapped, 0, 98), 0) << "left of the line stands the picture";
     EXPECT_GT(changed(plain, mapped, 103, 200), 20);
     const float error = viewer_->frame()->maps(150, 20).x;
