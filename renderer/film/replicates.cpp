@@ -47,8 +47,10 @@ void relative_half_differences(const Film& film, double mean_luminance, uint32_t
             continue;
         }
         // The pixel's own mean goes up with a bright sample as the difference does, which would hide every firefly.
+        // But a lamp as small as a pixel is believed by half of what the dimmer replicate has of it.
         const Range range = inner_range(around);
-        const float scale = std::clamp(mean_of(pixel), range.low, range.high) + floor;
+        const float mean = mean_of(pixel), dimmer = mean - half;
+        const float scale = std::clamp(mean, range.low, std::max(range.high, 0.5f * dimmer)) + floor;
         out[x] = scale > 0.0f ? half / scale : 0.0f;
     }
 }

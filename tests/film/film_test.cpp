@@ -104,6 +104,22 @@ TEST(StatedError, RareBrightSamplesAreNotHiddenByTheirOwnBrightness) {
     EXPECT_GT(stated, mean * 0.40) << "half is what differences of skewed noise must lose";
 }
 
+// A lamp of one pixel among dark ones is a hundred times as bright, and its samples agree within a few per cent.
+TEST(StatedError, LampsOfOnePixelAreNoFireflies) {
+    Film film({50, 50});
+    for (uint32_t y = 0; y < 50; ++y) {
+        for (uint32_t x = 0; x < 50; ++x) {
+            const float value = x % 5 == 2 && y % 5 == 2 ? 100.0f : 1.0f;
+            for (uint32_t i = 0; i < 2; ++i)
+                film.add({x, y}, i, Vec3(i == 0 ? 1.02f * value : 0.98f * value), 1);
+        }
+    }
+    // The mean is 4.96: dark pixels are at 0.02 / 1.496, lamps at 2 / 100.496, or twice that.
+    const double dark = 0.02 / 1.496, lamp = 2 / 100.496;
+    EXPECT_LT(measure(film).relative_error, 0.96 * dark + 0.04 * 2.1 * lamp);
+    EXPECT_GT(measure(film).relative_error, 0.96 * dark + 0.04 * 0.9 * lamp);
+}
+
 TEST(StatedError, IsTheSameHoweverTheRowsAreSharedOut) {
     std::mt19937 engine(8);
     std::exponential_distribution<float> noise(1.0f);
