@@ -3,9 +3,6 @@
 
 #include <array>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include "renderer/image/tone.h"
 
 namespace candela {
@@ -134,19 +131,13 @@ std::vector<ImageRgba8> make_mip_chain(const ImageRgba8& image, MipColors colors
     while (from->width() > 1 || from->height() > 1) {
         ImageRgba8 to(std::max(from->width() / 2, 1), std::max(from->height() / 2, 1));
         const bool even = from->width() % 2 == 0 && from->height() % 2 == 0;
-        const auto halve = [&](int y) {
+        for (int y = 0; y < to.height(); ++y) {
             if (even) {
                 halve_even_row(*from, to, y, colors);
             } else {
                 halve_row(*from, to, y, colors);
             }
-        };
-        const int rows_at_once = std::max((1 << 14) / to.width(), 1);
-        tbb::parallel_for(tbb::blocked_range<int>(0, to.height(), static_cast<size_t>(rows_at_once)),
-                          [&](const tbb::blocked_range<int>& rows) {
-                              for (int y = rows.begin(); y != rows.end(); ++y)
-                                  halve(y);
-                          });
+        }
         levels.push_back(std::move(to));
         from = &levels.back();
     }

@@ -100,9 +100,7 @@ void ImageDecoding::Impl::decode(size_t i) {
         image.pixels = decode_ldr(bytes, limits);
         image.alpha = alpha_of(image.pixels);
         image.oddities = basisu_oddities(bytes, encoded.as_color, encoded.as_data);
-        // A thread that waits for rows of this image must not begin with another image.
-        if (encoded.mips)
-            tbb::this_task_arena::isolate([&] { image.smaller = make_mip_chain(image.pixels, *encoded.mips); });
+        if (encoded.mips) image.smaller = make_mip_chain(image.pixels, *encoded.mips);
     } catch (const std::exception& error) {
         image.error = error.what();
         image.pixels = {};
@@ -121,6 +119,7 @@ ImageDecoding::ImageDecoding(std::vector<EncodedImage> images, const ImageDecode
     : impl_(std::make_unique<Impl>(std::move(images), options)) {
     // All threads draw from one counter, in file order.
     if (options.threads == 1) return;
+    impl_->next.store(0, std::memory_order_release);
     for (size_t i = 0; i < impl_->images.size(); ++i)
         impl_->arena.enqueue(impl_->group.defer([impl = impl_.get()] { impl->take_next(); }));
 }

@@ -4,8 +4,6 @@
 #include <atomic>
 #include <exception>
 
-#include <tbb/parallel_for.h>
-
 #include "renderer/io/deformations.h"
 #include "renderer/io/draco_primitive.h"
 #include "renderer/io/materials.h"
@@ -14,6 +12,7 @@
 #include "renderer/io/tinygltf.h"
 #include "renderer/io/topology.h"
 #include "renderer/io/variants.h"
+#include "renderer/math/parallel.h"
 #include "renderer/scene/deform.h"
 
 namespace candela {
@@ -294,7 +293,7 @@ std::vector<PrimitivesLoader::Part> PrimitivesLoader::parts() const {
 bool PrimitivesLoader::run_together() {
     std::vector<Part> all = parts();
     std::atomic<size_t> first_failed{all.size()};
-    tbb::parallel_for(size_t{0}, all.size(), [&](size_t i) {
+    parallel_for_each(all.size(), 1, [&](size_t i) {
         // What comes after a failure need not be known; what comes before must.
         if (i > first_failed.load(std::memory_order_relaxed)) return;
         Part& part = all[i];
@@ -383,7 +382,7 @@ void generate_missing_tangents(LoadContext& context, const Scene& scene, std::ve
             missing.emplace_back(&primitive, *uv_set);
         }
     }
-    tbb::parallel_for(size_t{0}, missing.size(), [&](size_t i) {
+    parallel_for_each(missing.size(), 1, [&](size_t i) {
         context.check_cancel();
         generate_tangents(*missing[i].first, missing[i].second);
     });

@@ -4,10 +4,8 @@
 #include <limits>
 #include <map>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include "renderer/io/repair.h"
+#include "renderer/math/parallel.h"
 #include "renderer/scene/place_nodes.h"
 
 namespace candela {
@@ -183,15 +181,12 @@ class BodyMaker {
         normals_.resize(vertices);
         sources_.resize(vertices);
         triangles_.resize(positions.size() * sphere_triangles + tubes.size() * tube_corners);
-        tbb::parallel_for(tbb::blocked_range<size_t>(0, positions.size(), 64), [&](const auto& range) {
-            for (size_t v = range.begin(); v != range.end(); ++v)
-                put_sphere(positions[v], static_cast<uint32_t>(v), v * sphere_vertices, v * sphere_triangles);
+        parallel_for_each(positions.size(), 64, [&](size_t v) {
+            put_sphere(positions[v], static_cast<uint32_t>(v), v * sphere_vertices, v * sphere_triangles);
         });
-        tbb::parallel_for(tbb::blocked_range<size_t>(0, tubes.size(), 64), [&](const auto& range) {
-            for (size_t i = range.begin(); i != range.end(); ++i) {
-                put_tube(positions, tubes[i], positions.size() * sphere_vertices + i * tube_corners,
-                         positions.size() * sphere_triangles + i * tube_corners);
-            }
+        parallel_for_each(tubes.size(), 64, [&](size_t i) {
+            put_tube(positions, tubes[i], positions.size() * sphere_vertices + i * tube_corners,
+                     positions.size() * sphere_triangles + i * tube_corners);
         });
         gather_vertices(primitive, sources_);
         primitive.positions = std::move(positions_);

@@ -8,10 +8,8 @@
 #include <numeric>
 #include <unordered_map>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include "renderer/math/hash.h"
+#include "renderer/math/parallel.h"
 #include "renderer/scene/deform.h"
 
 namespace candela {
@@ -30,14 +28,7 @@ bool normalize_or_zero(Vec3& v) {
     return length > 0.0f;
 }
 
-// Calls work(i) for 0 … count - 1, some thousands at a time on all cores.
-template <typename Work>
-void for_each_index(size_t count, const Work& work) {
-    tbb::parallel_for(tbb::blocked_range<size_t>(0, count, 4096), [&](const tbb::blocked_range<size_t>& range) {
-        for (size_t i = range.begin(); i != range.end(); ++i)
-            work(i);
-    });
-}
+constexpr size_t corners_at_once = 4096;
 
 class TangentBuilder {
   public:
@@ -79,7 +70,7 @@ void TangentBuilder::make_faces() {
     const size_t count = primitive_.triangles.size();
     faces_.resize(count);
     face_normals_.resize(count);
-    for_each_index(count, [&](size_t t) {
+    parallel_for_each(count, corners_at_once, [&](size_t t) {
         const Vec3 d1 = position(3 * t + 1) - position(3 * t);
         const Vec3 d2 = position(3 * t + 2) - position(3 * t);
         face_normals_[t] = glm::cross(d1, d2);
@@ -175,7 +166,8 @@ void TangentBuilder::join_across_edges() {
         if (!is_edge(corner)) continue;
         edges[fill[smaller_end(corner)]++] = {std::max(welded_[corner], welded_[next(corner)]), corner};
     }
-    for_each_index(corners, [&](size_t end) { std::sort(edges.begin() + first[end], edges.begin() + first[end + 1]); });
+    parallel_for_each(corners, corners_at_once,
+                      [&](size_t end) { std::sort(edges.begin() + first[end], edges.begin() + first[end + 1]); });
 
     // Each edge is shared with the first one that runs the other way and is still free.
     std::vector<bool> taken(edges.size(), false);
@@ -202,7 +194,7 @@ void TangentBuilder::accumulate() {
     // The face's tangent and the edges at each corner, seen in the plane of the vertex normal.
     const size_t corners = welded_.size();
     std::vector<Vec3> shares(corners, Vec3(0));
-    for_each_index(corners, [&](size_t corner) {
+    parallel_for_each(corners, corners_at_once, [&](size_t corner) {
         const Face& face = faces_[corner / 3];
         if (face.any_orientation) return;
         const Vec3 n = normal(corner);
@@ -236,7 +228,7 @@ void TangentBuilder::accumulate() {
             lender[welded_[corner]] = source[corner];
     }
     tangents_.resize(corners);
-    for_each_index(corners, [&](size_t corner) {
+    parallel_for_each(corners, corners_at_once, [&](size_t corner) {
         uint32_t root = source[corner];
         if (keeps[root] < 0 && lender[welded_[corner]] != 0xffffffffu) root = lender[welded_[corner]];
         const Vec3 n = normal(corner);
@@ -252,15 +244,13 @@ void TangentBuilder::accumulate() {
 }
 
 void TangentBuilder::write_back() {
+    // Corners of one vertex that differ in their tangents get vertices of their own, in the order of the corners.
     constexpr uint32_t unset = 0xffffffffu;
     const size_t vertices = primitive_.positions.size();
     std::vector<uint32_t> first_corner(vertices, unset);
     std::unordered_map<uint64_t, uint32_t> split;  // (vertex, corner group) to the appended vertex
-    std::vector<uint32_t> appended_from;
+    std::vector<uint32_t> appended_from, appended_corner;
     primitive_.tangents.assign(vertices, Vec4(1, 0, 0, 1));
-    const auto append = [](auto& values, uint32_t from) {
-        if (!values.empty()) values.push_back(values[from]);
-    };
     for (uint32_t corner = 0; corner < tangents_.size(); ++corner) {
         const uint32_t v = vertex(corner);
         uint32_t& slot = primitive_.triangles[corner / 3][static_cast<int>(corner % 3)];
@@ -269,20 +259,32 @@ void TangentBuilder::write_back() {
             primitive_.tangents[v] = tangents_[corner];
         } else if (primitive_.tangents[v] != tangents_[corner]) {
             const uint64_t key = uint64_t{v} << 32 | find(corner);
-            const auto [found, added] = split.try_emplace(key, static_cast<uint32_t>(primitive_.positions.size()));
+            const auto [found, added] = split.try_emplace(key, static_cast<uint32_t>(vertices + appended_from.size()));
             if (added) {
-                append(primitive_.positions, v);
-                append(primitive_.normals, v);
-                append(primitive_.uv[0], v);
-                append(primitive_.uv[1], v);
-                append(primitive_.colors, v);
-                primitive_.tangents.push_back(tangents_[corner]);
                 appended_from.push_back(v);
+                appended_corner.push_back(corner);
             }
             slot = found->second;
         }
     }
-    if (primitive_.deformation && !appended_from.empty()) {
+    if (appended_from.empty()) return;
+
+    // Their number is known: nothing grows further than it must.
+    const auto append = [&](auto& values) {
+        if (values.empty()) return;
+        values.reserve(vertices + appended_from.size());
+        for (const uint32_t from : appended_from)
+            values.push_back(values[from]);
+    };
+    append(primitive_.positions);
+    append(primitive_.normals);
+    append(primitive_.uv[0]);
+    append(primitive_.uv[1]);
+    append(primitive_.colors);
+    primitive_.tangents.reserve(vertices + appended_from.size());
+    for (const uint32_t corner : appended_corner)
+        primitive_.tangents.push_back(tangents_[corner]);
+    if (primitive_.deformation) {
         std::vector<uint32_t> from(vertices);
         std::iota(from.begin(), from.end(), 0u);
         from.insert(from.end(), appended_from.begin(), appended_from.end());

@@ -5,6 +5,8 @@
 #include <limits>
 #include <memory>
 
+#include "renderer/math/parallel.h"
+
 namespace candela {
 
 namespace {
@@ -89,6 +91,8 @@ struct LightTree::Build {
     // A way of more branches than a word holds would be lost: where it comes to that, halves keep it short.
     static constexpr uint32_t deepest = 64 / bits_per_level;
     static constexpr int bucket_count = 12;
+    // Fewer lights are not worth another core.
+    static constexpr size_t parallel_from = 2048;
 
     // Below this many lights of a large scene cuts in the middle will do: the search would cost more than it saves.
     size_t searched_from() const { return order.size() > (size_t{1} << 14) ? 17 : 3; }
@@ -120,9 +124,11 @@ struct LightTree::Build {
         }
         for (const uint32_t light : members) {
             LightBounds& bucket = out[static_cast<size_t>(bucket_of(light))];
-            // cos(a + b), or -1 beyond π.
+            // cos(a + b), or -1 beyond π; most lights have one normal.
             const float cos_a = glm::dot(bucket.axis, lights[light].axis), cos_b = lights[light].cos_normals;
-            const float sum = cos_a < -cos_b ? -1.0f : cos_a * cos_b - sine_of(cos_a) * sine_of(cos_b);
+            const float sum = cos_a < -cos_b  ? -1.0f
+                              : cos_b == 1.0f ? cos_a
+                                              : cos_a * cos_b - sine_of(cos_a) * sine_of(cos_b);
             bucket.cos_normals = std::min(bucket.cos_normals, sum);
         }
         return out;
@@ -203,8 +209,15 @@ struct LightTree::Build {
             return part;
         }
         const size_t middle = split(first, last, depth);
-        part->below = divide(first, middle, depth + 1);
-        part->above = divide(middle, last, depth + 1);
+        // The order of each half is its own: which comes first makes no difference.
+        const auto divide_below = [&] { part->below = divide(first, middle, depth + 1); };
+        const auto divide_above = [&] { part->above = divide(middle, last, depth + 1); };
+        if (last - first < parallel_from) {
+            divide_below();
+            divide_above();
+        } else {
+            parallel_pair(divide_below, divide_above);
+        }
         part->bounds = united(part->below->bounds, part->above->bounds);
         return part;
     }

@@ -73,9 +73,9 @@ struct Point {
             }
         };
         if (batch.kind == SamplerKind::independent) {
-            fill(independent_point);
+            fill([](uint32_t seed, uint32_t index) { return independent_point(seed, index); });
         } else {
-            fill(sobol_point);
+            fill([](uint32_t seed, uint32_t index) { return sobol_point(seed, index); });
         }
     }
 }

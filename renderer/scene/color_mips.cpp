@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/scene/color_mips.h"
 
-#include <tbb/parallel_for.h>
+#include "renderer/math/parallel.h"
 
 namespace candela {
 
@@ -27,7 +27,7 @@ std::vector<std::optional<MipColors>> wanted_mips(const Scene& scene) {
 
 void make_color_mips(Scene& scene) {
     const std::vector<std::optional<MipColors>> wanted = wanted_mips(scene);
-    tbb::parallel_for(size_t{0}, wanted.size(), [&](size_t i) {
+    parallel_for_each(wanted.size(), 1, [&](size_t i) {
         SceneImage& image = scene.images[i];
         if (!wanted[i] || !image.pixels || image.smaller) return;
         image.smaller = std::make_shared<const std::vector<ImageRgba8>>(make_mip_chain(*image.pixels, *wanted[i]));

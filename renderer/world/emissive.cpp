@@ -3,8 +3,7 @@
 
 #include <array>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include "renderer/math/parallel.h"
 
 namespace candela {
 
@@ -130,21 +129,20 @@ void append_emissive_triangles(const World& world, uint32_t surface_index, Surfa
     // Each triangle as a whole, and how finely it should be cut.
     std::vector<EmissiveTriangle> wholes(count);
     std::vector<uint32_t> cuts(count, 1);
-    tbb::parallel_for(tbb::blocked_range<uint32_t>(0, count, 64), [&](const tbb::blocked_range<uint32_t>& range) {
-        for (uint32_t t = range.begin(); t != range.end(); ++t) {
-            wholes[t] = place_triangle(world, surface_index, surface, t);
-            wholes[t].mean_radiance = luminance(factor);
-            if (uv == nullptr) continue;
-            // A triangle must stay reachable as long as a texel of it may shine: the grid can miss some, so its choice
-            // never falls below a hundredth of the factor's unless the grid saw every texel black.
-            const TextureView& texture = world.textures[material.emissive.texture.value];
-            const std::array<Vec2, 3> corners = corners_of(t);
-            const TextureMean mean = mean_over_triangle(texture, material.emissive, factor, corners.data());
-            wholes[t].mean_radiance = std::max(mean.mean, 0.01f * std::max(mean.largest, 0.01f * luminance(factor)));
-            if (!(mean.largest > 2.0f * mean.smallest)) continue;
-            const int texels = texels_along(texture, material.emissive, corners.data());
-            cuts[t] = static_cast<uint32_t>(std::min(2 * texels, most_cells_per_edge));
-        }
+    parallel_for_each(count, 64, [&](size_t triangle) {
+        const auto t = static_cast<uint32_t>(triangle);
+        wholes[t] = place_triangle(world, surface_index, surface, t);
+        wholes[t].mean_radiance = luminance(factor);
+        if (uv == nullptr) return;
+        // A triangle must stay reachable as long as a texel of it may shine: the grid can miss some, so its choice
+        // never falls below a hundredth of the factor's unless the grid saw every texel black.
+        const TextureView& texture = world.textures[material.emissive.texture.value];
+        const std::array<Vec2, 3> corners = corners_of(t);
+        const TextureMean mean = mean_over_triangle(texture, material.emissive, factor, corners.data());
+        wholes[t].mean_radiance = std::max(mean.mean, 0.01f * std::max(mean.largest, 0.01f * luminance(factor)));
+        if (!(mean.largest > 2.0f * mean.smallest)) return;
+        const int texels = texels_along(texture, material.emissive, corners.data());
+        cuts[t] = static_cast<uint32_t>(std::min(2 * texels, most_cells_per_edge));
     });
 
     // The cells follow one another, as long as there are not too many.
@@ -160,35 +158,34 @@ void append_emissive_triangles(const World& world, uint32_t surface_index, Surfa
 
     // Each cell has its own mean, but a share that keeps it reachable.
     const uint32_t first = surface.first_emissive;
-    tbb::parallel_for(tbb::blocked_range<uint32_t>(0, count, 16), [&](const tbb::blocked_range<uint32_t>& range) {
-        for (uint32_t t = range.begin(); t != range.end(); ++t) {
-            const EmissiveTriangle& whole = wholes[t];
-            EmissiveTriangle* next = &out.triangles[out.cells[first + t].first];
-            if (cuts[t] == 1) {
-                *next = whole;
-                continue;
-            }
-            const TextureView& texture = world.textures[material.emissive.texture.value];
-            const std::array<Vec2, 3> corners = corners_of(t);
-            const auto n = static_cast<int>(cuts[t]);
-            const float width = 1.0f / static_cast<float>(n);
-            const auto add_cell = [&](const Vec2& corner, float scale) {
-                *next = cut_cell(whole, corner, scale);
-                const auto uv_at = [&](float u, float v) {
-                    return (1.0f - u - v) * corners[0] + u * corners[1] + v * corners[2];
-                };
-                const Vec2 cell_uv[3] = {uv_at(corner.x, corner.y), uv_at(corner.x + scale, corner.y),
-                                         uv_at(corner.x, corner.y + scale)};
-                const float shines = mean_over_triangle(texture, material.emissive, factor, cell_uv).mean;
-                next->mean_radiance = std::max(shines, 0.05f * whole.mean_radiance);
-                ++next;
+    parallel_for_each(count, 16, [&](size_t triangle) {
+        const auto t = static_cast<uint32_t>(triangle);
+        const EmissiveTriangle& whole = wholes[t];
+        EmissiveTriangle* next = &out.triangles[out.cells[first + t].first];
+        if (cuts[t] == 1) {
+            *next = whole;
+            return;
+        }
+        const TextureView& texture = world.textures[material.emissive.texture.value];
+        const std::array<Vec2, 3> corners = corners_of(t);
+        const auto n = static_cast<int>(cuts[t]);
+        const float width = 1.0f / static_cast<float>(n);
+        const auto add_cell = [&](const Vec2& corner, float scale) {
+            *next = cut_cell(whole, corner, scale);
+            const auto uv_at = [&](float u, float v) {
+                return (1.0f - u - v) * corners[0] + u * corners[1] + v * corners[2];
             };
-            for (int i = 0; i < n; ++i) {
-                for (int j = 0; i + j < n; ++j) {
-                    const Vec2 corner = width * Vec2(i, j);
-                    add_cell(corner, width);
-                    if (i + j < n - 1) add_cell(corner + width, -width);
-                }
+            const Vec2 cell_uv[3] = {uv_at(corner.x, corner.y), uv_at(corner.x + scale, corner.y),
+                                     uv_at(corner.x, corner.y + scale)};
+            const float shines = mean_over_triangle(texture, material.emissive, factor, cell_uv).mean;
+            next->mean_radiance = std::max(shines, 0.05f * whole.mean_radiance);
+            ++next;
+        };
+        for (int i = 0; i < n; ++i) {
+            for (int j = 0; i + j < n; ++j) {
+                const Vec2 corner = width * Vec2(i, j);
+                add_cell(corner, width);
+                if (i + j < n - 1) add_cell(corner + width, -width);
             }
         }
     });

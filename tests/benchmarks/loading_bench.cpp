@@ -139,15 +139,22 @@ std::shared_ptr<const World> open_once(const RenderOptions& options, Times& time
         nullptr);
     enter("first_picture");
     times.open_ms.push_back(ms_since(start));
+    const double opened_bytes = peak_bytes() - before_bytes;
     const uint64_t epoch = session.submit(job.request);
     for (const Frame* frame = nullptr; frame == nullptr || frame->epoch < epoch; frame = session.latest())
         std::this_thread::sleep_for(std::chrono::microseconds(100));
     enter("");
     times.first_picture_ms.push_back(ms_since(start));
     session.stop();
-    times.peak_mb.push_back(1e-6 * (peak_bytes() - before_bytes));
-    times.memory_ratio.push_back((peak_bytes() - before_bytes) /
-                                 (static_cast<double>(needed_bytes(*job.world)) + film_bytes));
+    // With the film, where it counts among what is needed.
+    const double peak = film_bytes > 0 ? peak_bytes() - before_bytes : opened_bytes;
+    times.peak_mb.push_back(1e-6 * peak);
+    times.memory_ratio.push_back(peak / (static_cast<double>(needed_bytes(*job.world)) + film_bytes));
+    if (std::getenv("CANDELA_MEMORY_DETAILS") != nullptr) {
+        std::fprintf(stderr, "opened %.1f picture %.1f needed %.1f accel %.1f\n", 1e-6 * opened_bytes,
+                     1e-6 * (peak_bytes() - before_bytes), 1e-6 * static_cast<double>(needed_bytes(*job.world)),
+                     1e-6 * static_cast<double>(job.world->accel->memory_bytes()));
+    }
     times.parse_ms.push_back(steps["reading"]);
     for (const auto& [name, ms] : steps)
         times.steps_ms[name].push_back(ms);
