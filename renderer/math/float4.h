@@ -18,10 +18,6 @@ inline Float4 splat4(float x) {
     return Float4{x, x, x, x};
 }
 
-inline Float4 load4(const float* p) {
-    return Float4{p[0], p[1], p[2], p[3]};
-}
-
 inline Float4 select4(Mask4 mask, Float4 yes, Float4 no) {
     return mask ? yes : no;
 }

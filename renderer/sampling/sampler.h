@@ -45,7 +45,7 @@ static_assert(sizeof(Sampler) == 16);
 // in the time of one.
 struct PointBatch {
     static constexpr size_t capacity = 256;
-    static constexpr size_t most_pairs = 5;
+    static constexpr size_t most_pairs = 4;
 
     // Where the points of sampler i come from: those of its next pairs of dimensions.
     void set(size_t i, const Sampler& sampler) {
