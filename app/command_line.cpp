@@ -210,6 +210,7 @@ void add_viewer_options(CLI::App& command, RenderOptions& options) {
                                                {"bounces", PixelMap::bounces}};
     take_one_of(maps, command.add_option("--map", options.map,
                                          "beside the picture, as colours: error, samples, rays or bounces of a pixel"));
+    command.add_flag("--denoise", options.denoise, "shows the picture without its noise: a preview, not the truth");
     command.add_option("--wipe", options.wipe, "where the map begins: 0 at the left edge, 1 at the right (0.5)")
         ->check(CLI::Range(0.0f, 1.0f))
         ->type_name("X");

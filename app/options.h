@@ -49,6 +49,7 @@ struct RenderOptions {
     double fps = 30;                   // picture k shows the time k / fps
     std::vector<std::string> aovs;
     std::optional<PixelMap> map;    // beside the picture, in the window
+    bool denoise = false;           // shows the denoised preview
     float wipe = 0.5f;              // where it begins: 0 at the left edge, 1 at the right
     std::vector<std::string> open;  // panels of a screenshot
     std::string stats_file;         // "-": standard output

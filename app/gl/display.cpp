@@ -58,9 +58,15 @@ Vec2u Display::upload_image(const ImageRgba32f& image, GLuint texture, Vec2u ext
     return {image.width(), image.height()};
 }
 
-bool Display::upload(const Frame& frame) {
-    if (Vec2u(frame.image.width(), frame.image.height()) == extent_ && frame.serial == serial_) return false;
-    extent_ = upload_image(frame.image, texture_, extent_);
+bool Display::upload(const Frame& frame, const StandIn& stand_in) {
+    const ImageRgba32f& image = stand_in.image != nullptr ? *stand_in.image : frame.image;
+    const uint64_t stand_in_serial = stand_in.image != nullptr ? stand_in.serial : 0;
+    if (Vec2u(image.width(), image.height()) == extent_ && frame.serial == serial_ &&
+        stand_in_serial == stand_in_serial_) {
+        return false;
+    }
+    extent_ = upload_image(image, texture_, extent_);
+    stand_in_serial_ = stand_in_serial;
     has_maps_ = !frame.maps.empty();
     if (has_maps_) maps_extent_ = upload_image(frame.maps, maps_texture_, maps_extent_);
     serial_ = frame.serial;

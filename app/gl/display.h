@@ -32,6 +32,12 @@ struct FitRectangle {
 };
 FitRectangle fit_rectangle(Vec2u picture, Vec2u framebuffer);
 
+// What is shown in place of a frame's own picture.
+struct StandIn {
+    const ImageRgba32f* image = nullptr;  // of the frame's extent; null: nothing stands in
+    uint64_t serial = 0;                  // another picture has another one
+};
+
 class Display {
   public:
     // Needs the context to be current, here and in every call. Throws GlError.
@@ -40,9 +46,10 @@ class Display {
     Display(const Display&) = delete;
     Display& operator=(const Display&) = delete;
 
-    // Uploads the frame unless its serial is that of the one uploaded last; returns whether it did. Throws GlError
+    // Uploads the frame unless its serial is that of the one uploaded last, and so for what stands in for its picture;
+    // returns whether it did. Throws GlError
     // where it exceeds the driver's texture size.
-    bool upload(const Frame& frame);
+    bool upload(const Frame& frame, const StandIn& stand_in = {});
     // Forgets the frame uploaded last.
     void clear() { extent_ = Vec2u(0); }
     // Clears the framebuffer and draws the frame uploaded last, if any, into its fit_rectangle.
@@ -56,7 +63,7 @@ class Display {
     GlProgram program_;
     GLuint texture_ = 0, maps_texture_ = 0, vertex_array_ = 0;
     Vec2u extent_{0}, maps_extent_{0};
-    uint64_t serial_ = 0;
+    uint64_t serial_ = 0, stand_in_serial_ = 0;  // of what was uploaded last; the latter 0: the frame's own picture
     bool has_maps_ = false;
 };
 

@@ -44,6 +44,15 @@ std::optional<float> wipe_x(const ViewerModel& model) {
     return model.picture_left + model.map.wipe * model.picture_width;
 }
 
+void draw_denoised_badge(const ViewerModel& model) {
+    if (!model.denoised_spp || !model.has_scene()) return;
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float unit = ImGui::GetFontSize();
+    const std::string words =
+        fmt::format("denoised, of {} sample{}", *model.denoised_spp, *model.denoised_spp == 1 ? "" : "s");
+    label(ImGui::GetBackgroundDrawList(), words.c_str(), display.x - unit, display.y - 4.0f * unit, 1);
+}
+
 void draw_wipe(const ViewerModel& model) {
     const std::optional<float> line = wipe_x(model);
     if (!line) return;
@@ -66,7 +75,8 @@ void draw_wipe(const ViewerModel& model) {
     const float left = model.picture_left, right = left + model.picture_width;
     const char* title = title_of(model.map.map);
     const float top = bottom - 2.2f * unit;
-    if (x - left > ImGui::CalcTextSize("picture").x + 2 * unit) label(draw, "picture", x - unit, top, 1);
+    const char* picture = model.denoised_spp ? "denoised" : "picture";
+    if (x - left > ImGui::CalcTextSize(picture).x + 2 * unit) label(draw, picture, x - unit, top, 1);
     if (right - x > ImGui::CalcTextSize(title).x + 2 * unit) label(draw, title, x + unit, top, 0);
 }
 

@@ -98,6 +98,7 @@ void draw_status_line(const ViewerModel& model) {
         if (!words.brief.empty() && !line.item(words.sentence, nullptr, room) && !line.item(words.brief, nullptr, room))
             line.item("±" + percent_text(model.film.relative_error));
         line.item(speed);
+        if (model.denoised_spp) line.item("denoised", &accent);
         if (model.job.request.settings.biased()) line.item("biased", &alarm);
         if (model.film.non_finite > 0) line.item(fmt::format("{} samples not finite", model.film.non_finite), &alarm);
         if (!model.job.warnings.empty()) {
@@ -167,7 +168,8 @@ void draw_help() {
                                        {"error map, next map", "V, Shift+V"},
                                        {"wipe of the map", "drag its line; , and ."},
                                        {"pause rendering", "P"},
-                                       {"save picture", "Ctrl+S, F12"},
+                                       {"denoised preview", "D"},
+                                       {"save picture, the denoised one", "Ctrl+S, Ctrl+Shift+S"},
                                        {"reload", "F5"},
                                        {"next, previous file", "right, left arrow"},
                                        {"open", "drop a .gltf, .glb, .hdr or .exr file"},

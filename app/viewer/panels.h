@@ -22,6 +22,8 @@ std::optional<double> asked_error(const ViewerModel& model);
 ErrorWords words_of(const ViewerModel& model);
 // The sentence of the stated error and its plot over time, in the current window.
 void draw_convergence(const ViewerModel& model);
+// Says of a denoised picture that it is one.
+void draw_denoised_badge(const ViewerModel& model);
 // The map beside the picture: where its line stands, in points (none: no map is shown), the line with its labels, and
 // the colours with their numbers.
 std::optional<float> wipe_x(const ViewerModel& model);

@@ -106,6 +106,8 @@ void display_section(ViewerModel& model, PanelEdits& edits) {
         if (map > 0) model.map.map = static_cast<PixelMap>(map - 1);
         edits.map = true;
     }
+    bool denoises = model.denoises;
+    edits.denoise = ImGui::Checkbox("denoised preview", &denoises);
     if (model.map.shown) edits.map |= ImGui::SliderFloat("wipe", &model.map.wipe, 0, 1, "%.2f");
 }
 

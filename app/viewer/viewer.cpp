@@ -41,6 +41,8 @@ Viewer::Viewer(const RenderOptions& options, const GlContext& context, const Vie
     session_options.threads = options.threads;
     session_ = std::make_unique<RenderSession>(session_options);
     session_->show_maps(model_.map.shown);
+    denoised_ = std::make_unique<DenoisedPreview>(*session_);
+    model_.denoises = options.denoise;
     if (!options.scene.empty()) start_load(options, false);
 }
 
@@ -291,7 +293,12 @@ void Viewer::take_frame() {
     if (model_.status.done && !was_done) redraws_ = std::max(redraws_, 1);
     if (!model_.status.error.empty() && model_.notice != model_.status.error) notify(model_.status.error, true);
     frame_ = session_->latest();
-    if (frame_ == nullptr || !display_.upload(*frame_)) return;
+    if (frame_ == nullptr) return;
+    update_denoised();
+    const DenoisedPicture* denoised = shown_denoised();
+    model_.denoised_spp.reset();
+    if (denoised != nullptr) model_.denoised_spp = denoised->spp;
+    if (!display_.upload(*frame_, {denoised != nullptr ? &denoised->image : nullptr, denoised_serial_})) return;
     model_.frame_epoch = frame_->epoch;
     model_.frame_serial = frame_->serial;
     model_.film = frame_->statistics;
@@ -370,6 +377,7 @@ void Viewer::draw() {
         if (model_.show_statistics) draw_statistics(model_);
         place_picture();
         draw_wipe(model_);
+        draw_denoised_badge(model_);
         if (model_.has_scene()) {
             const std::vector<ValidationReading> readings =
                 read_validation(model_.job.scene_path, *model_.job.world, model_.job.request.view, frame_);
@@ -400,6 +408,7 @@ void Viewer::apply(const PanelEdits& edits) {
         seek(*edits.seek_s);
     }
     if (edits.map) show_map(model_.map);
+    if (edits.denoise) toggle_denoise();
     if (edits.frame_all) frame_everything();
     if (edits.camera) show_file_camera(*edits.camera);
     if (edits.scene) {
@@ -417,6 +426,7 @@ void Viewer::apply(const PanelEdits& edits) {
 bool Viewer::finished() const {
     if (loader_.busy() || dirty_ || environment_dirty_ || pose_is_wanted()) return false;
     if (map_is_missing()) return false;
+    if (model_.denoises && model_.has_scene() && !denoised_->is_last(model_.status)) return false;
     return !model_.has_scene() || model_.status.done;
 }
 
@@ -424,21 +434,13 @@ double Viewer::seconds_until_update() const {
     if (redraws_ > 0 || dirty_) return now_s() < hold_until_s_ ? 0.001 : 0;
     if (model_.playback.playing || (loader_.busy() && load_is_ == LoadKind::pose)) return 0.004;
     if (loader_.busy()) return 0.02;
-    if (map_is_missing()) return 0.008;
+    if (map_is_missing() || denoised_->busy()) return 0.008;
     if (model_.has_scene() && !model_.status.done && !model_.status.paused) return 0.008;
     return 0.25;
 }
 
 std::string Viewer::title() const {
     return model_.has_scene() ? "candela - " + file_name(model_.job.scene_path) : "candela";
-}
-
-void Viewer::save(const std::string& path) const {
-    if (frame_ == nullptr)
-        throw CommandError(ExitStatus::unwritable_output, path + ": there is no picture to save yet");
-    const bool png = extension_of(path) == ".png";
-    save_picture(path, *frame_, png ? model_.display.tone : ToneSettings{}, model_.job.request.settings,
-                 picture_header(model_.options.command, model_.job.request));
 }
 
 }  // namespace candela

@@ -3,6 +3,7 @@
 // and tests drive the same object.
 #pragma once
 
+#include "app/viewer/denoised_preview.h"
 #include "app/viewer/input.h"
 #include "app/viewer/ui.h"
 #include "app/viewer/viewer_model.h"
@@ -45,8 +46,10 @@ class Viewer {
     void open(const std::string& path);
     // The same for one of validation_scenes(), under the sky that it wants.
     void open_validation_scene(size_t index);
-    // Renders, at the path, what is shown: .png as displayed; throws CommandError.
+    // Writes the true picture to the path: .png with the tone curve that is shown; throws CommandError.
     void save(const std::string& path) const;
+    // The same of the denoised picture that is shown.
+    void save_denoised(const std::string& path) const;
 
     const ViewerModel& model() const { return model_; }
     // What is shown; null before the first picture.
@@ -94,7 +97,11 @@ class Viewer {
     void frame_everything();
     void change_exposure(float ev);
     void open_neighbour(int step);
-    void save_next();
+    void save_next(bool denoised);
+    void toggle_denoise();
+    void update_denoised();
+    const DenoisedPicture* shown_denoised() const;  // null: the true picture is shown
+    void save_image(const std::string& path, const Frame& frame, bool denoised) const;
     void toggle_background();
     void toggle_pause();
     void show_map(const MapView& view);
@@ -131,6 +138,8 @@ class Viewer {
     Display display_;
     std::unique_ptr<Ui> ui_;
     std::unique_ptr<RenderSession> session_;
+    std::unique_ptr<DenoisedPreview> denoised_;
+    uint64_t denoised_serial_ = 0;
     SceneLoader loader_;
     LoadKind load_is_ = LoadKind::scene;
     bool load_keeps_view_ = false, environment_dirty_ = false;

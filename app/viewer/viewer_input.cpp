@@ -154,7 +154,7 @@ void Viewer::handle_key(const KeyPressed& event) {
     const Modifiers& modifiers = event.modifiers;
     if (modifiers.ctrl) {
         if (event.key == Key::q) close_ = true;
-        if (event.key == Key::s) save_next();
+        if (event.key == Key::s) save_next(modifiers.shift);
         return;
     }
     if (modifiers.alt) return;
@@ -168,7 +168,10 @@ void Viewer::handle_key(const KeyPressed& event) {
             if (!model_.options.scene.empty()) start_load(model_.options, model_.has_scene());
             return;
         case Key::f12:
-            save_next();
+            save_next(modifiers.shift);
+            return;
+        case Key::d:
+            toggle_denoise();
             return;
         case Key::tab:
             model_.show_panels = !model_.show_panels;
@@ -357,26 +360,6 @@ void Viewer::open_neighbour(int step) {
     }
     const auto count = static_cast<std::ptrdiff_t>(files.size());
     open(files[static_cast<size_t>(((found - files.begin()) + step + count) % count)].string());
-}
-
-// candela-NAME-001.png in the current folder, and the linear radiance beside it.
-void Viewer::save_next() {
-    if (!model_.has_scene()) return;
-    const std::string stem = "candela-" + std::filesystem::path(model_.job.scene_path).stem().string();
-    std::string name;
-    for (int number = 1; name.empty(); ++number) {
-        const std::string candidate = fmt::format("{}-{:03}", stem, number);
-        std::error_code error;
-        if (!std::filesystem::exists(candidate + ".png", error) && !std::filesystem::exists(candidate + ".exr", error))
-            name = candidate;
-    }
-    try {
-        save(name + ".png");
-        save(name + ".exr");
-        notify(fmt::format("saved {0}.png and {0}.exr", name));
-    } catch (const CommandError& error) {
-        notify(error.what(), true);
-    }
 }
 
 }  // namespace candela

@@ -22,6 +22,9 @@ struct ViewerModel {
     HeatScale map_scale;                        // of the map that is shown
     float picture_left = 0, picture_width = 0;  // where the picture stands in the window, in points
 
+    bool denoises = false;                 // the picture's noise is filtered away where that is ready
+    std::optional<uint32_t> denoised_spp;  // of the denoised picture that is shown; none: the true one is
+
     bool show_interface = true;  // false: only the picture
     bool show_panels = false;
     bool show_help = false;
@@ -53,6 +56,7 @@ struct PanelEdits {
     bool environment = false;  // a new world off-thread
     bool tone = false;         // only drawn anew
     bool map = false;          // another map, or none
+    bool denoise = false;      // on or off
     bool toggle_pause = false;
     bool frame_all = false;
     bool toggle_play = false;

@@ -82,6 +82,7 @@ struct RenderSession::Impl {
     bool republish_asked = false;
     uint32_t snapshots_asked = 0, snapshots_made = 0;
     Film snapshot;
+    uint64_t snapshot_epoch = 0;
     uint32_t max_spp = 0;
     double max_seconds = 0;
     SessionStatus status;
@@ -303,6 +304,7 @@ void RenderSession::Impl::control_loop() {
             std::unique_lock lock(mutex);
             if (snapshots_made != snapshots_asked) {
                 snapshot = film;
+                snapshot_epoch = epoch;
                 snapshots_made = snapshots_asked;
                 reported.notify_all();
             }
@@ -430,11 +432,12 @@ void RenderSession::show_maps(bool wanted) {
     impl_->wake.notify_all();
 }
 
-Film RenderSession::snapshot_film() {
+Film RenderSession::snapshot_film(uint64_t* epoch) {
     std::unique_lock lock(impl_->mutex);
     const uint32_t mine = ++impl_->snapshots_asked;
     impl_->wake.notify_all();
     impl_->reported.wait(lock, [&] { return impl_->snapshots_made >= mine; });
+    if (epoch != nullptr) *epoch = impl_->snapshot_epoch;
     return impl_->snapshot;
 }
 

@@ -68,8 +68,9 @@ class RenderSession {
     SessionStatus status() const;
     // Blocks until the current epoch is done (or timeout_s passed); true when done.
     bool wait_until_done(double timeout_s = std::numeric_limits<double>::infinity());
-    // A copy of the film at a quiescent point between slices (blocks for at most a slice).
-    Film snapshot_film();
+    // A copy of the film at a quiescent point between slices (blocks for at most a slice). epoch, if not null: gets the
+    // submit that it belongs to.
+    Film snapshot_film(uint64_t* epoch = nullptr);
     // Ends the current epoch as it is: workers finish their batches, a last frame is published, done becomes true.
     void stop();
 

@@ -8,9 +8,9 @@
 namespace candela {
 namespace {
 
-const std::map<std::string, int> rank = {{"math", 0},  {"sampling", 1},   {"image", 1},  {"bsdf", 2},    {"scene", 2},
-                                         {"film", 2},  {"io", 3},         {"accel", 3},  {"texture", 3}, {"lights", 4},
-                                         {"world", 5}, {"integrator", 6}, {"session", 7}};
+const std::map<std::string, int> rank = {
+    {"math", 0}, {"sampling", 1}, {"image", 1},   {"bsdf", 2},   {"scene", 2}, {"film", 2},       {"denoise", 3},
+    {"io", 3},   {"accel", 3},    {"texture", 3}, {"lights", 4}, {"world", 5}, {"integrator", 6}, {"session", 7}};
 
 // Which room may include a foreign header, by a part of its name.
 const std::vector<std::pair<std::string, std::string>> owners = {
