@@ -211,6 +211,18 @@ void add_viewer_options(CLI::App& command, RenderOptions& options) {
     take_one_of(maps, command.add_option("--map", options.map,
                                          "beside the picture, as colours: error, samples, rays or bounces of a pixel"));
     command.add_flag("--denoise", options.denoise, "shows the picture without its noise: a preview, not the truth");
+    command
+        .add_option("--frame-time", options.frame_time_ms,
+                    "milliseconds to a first picture and between young ones, which begin as coarse as that takes (33)")
+        ->check(CLI::Range(5.0, 1000.0))
+        ->type_name("MS");
+    command
+        .add_option_function<double>(
+            "--limit-views",
+            [&options](double mib) { options.limit_views_bytes = static_cast<uint64_t>(std::ldexp(mib, 20)); },
+            "for the samples of views that were left, which going back to one goes on with (512)")
+        ->check(CLI::Range(0.0, 1e7))
+        ->type_name("MiB");
     command.add_option("--wipe", options.wipe, "where the map begins: 0 at the left edge, 1 at the right (0.5)")
         ->check(CLI::Range(0.0f, 1.0f))
         ->type_name("X");

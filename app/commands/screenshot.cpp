@@ -63,6 +63,7 @@ ExitStatus run_screenshot(const RenderOptions& requested, bool with_interface) {
         for (int i = 0; i < 3; ++i) {
             viewer.update();
             viewer.draw();
+            viewer.presented();
         }
         const double before_write = seconds_since_start();
         write_png(options.output, read_back(context), false,

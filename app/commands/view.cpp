@@ -37,6 +37,7 @@ ExitStatus run_view(const RenderOptions& requested) {
             if (draws) {
                 viewer.draw();
                 window.swap_buffers();
+                viewer.presented();
             }
             if (viewer.title() != title) window.set_title(title = viewer.title());
             if (viewer.load_error() != reported) {

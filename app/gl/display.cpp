@@ -59,7 +59,7 @@ Vec2u Display::upload_image(const ImageRgba32f& image, GLuint texture, Vec2u ext
 }
 
 bool Display::upload(const Frame& frame, const StandIn& stand_in) {
-    const ImageRgba32f& image = stand_in.image != nullptr ? *stand_in.image : frame.image;
+    const ImageRgba32f& image = stand_in.image != nullptr ? *stand_in.image : frame.shown();
     const uint64_t stand_in_serial = stand_in.image != nullptr ? stand_in.serial : 0;
     if (Vec2u(image.width(), image.height()) == extent_ && frame.serial == serial_ &&
         stand_in_serial == stand_in_serial_) {

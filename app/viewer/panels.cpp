@@ -90,6 +90,7 @@ void draw_status_line(const ViewerModel& model) {
         line.item(file_name(model.job.scene_path));
         line.item(fmt::format("{} spp", model.status.spp));
         line.item(clock_text(model.status.render_seconds));
+        if (model.is_reprojected) line.item("reprojected", &accent);
         if (const char* state = state_words(model)) line.item(state, &accent);
         // The speed stays, and what matters more than it.
         const std::string speed = fmt::format("{:.2f} Mrays/s", model.status.rays_per_second * 1e-6);
@@ -161,6 +162,8 @@ void draw_help() {
                                        {"front, right, top", "1  3  7"},
                                        {"isometric, orthographic", "9  5"},
                                        {"cameras of the file", "C"},
+                                       {"store, recall a view", "Ctrl+0-9, Shift+0-9"},
+                                       {"view before, after", "Alt+left, Alt+right arrow"},
                                        {"exposure", "E, Shift+E"},
                                        {"tone curve", "T"},
                                        {"turn, hide environment", "Shift+right drag, J"},
@@ -211,7 +214,12 @@ void draw_statistics(const ViewerModel& model) {
         row("camera rays", fmt::format("{:.2f} M", static_cast<double>(status.rays.camera) * 1e-6));
         row("bounce rays", fmt::format("{:.2f} M", static_cast<double>(status.rays.bounce) * 1e-6));
         row("shadow rays", fmt::format("{:.2f} M", static_cast<double>(status.rays.shadow) * 1e-6));
-        row("edit to picture", fmt::format("{:.1f} ms", 1e3 * status.last_first_frame_seconds));
+        if (model.latency.count > 0) {
+            row("input to picture",
+                fmt::format("{:.1f} ms (median {:.1f}, worst {:.1f} of {})", 1e3 * model.latency.last_s,
+                            1e3 * model.latency.median_s, 1e3 * model.latency.worst_s, model.latency.count));
+        }
+        row("of which tracing", fmt::format("{:.1f} ms", 1e3 * status.last_first_frame_seconds));
         row("of which letting go", fmt::format("{:.1f} ms", 1e3 * status.last_cancel_seconds));
         ImGui::EndTable();
     }

@@ -33,6 +33,8 @@ void draw_help();
 void draw_statistics(const ViewerModel& model);
 // The exact values of a validation scene, marked in the picture; nothing for other scenes.
 void draw_validation(const std::vector<ValidationReading>& readings);
+// Bookmarks and views that were left: a section of the side panel.
+void views_section(ViewerModel& model, PanelEdits& edits);
 // Camera, light, rendering, display and scene, at the right.
 PanelEdits draw_side_panel(ViewerModel& model);
 

@@ -91,6 +91,12 @@ void render_section(ViewerModel& model, PanelEdits& edits) {
     edits.settings |=
         ImGui::DragFloat("clamp", &settings.clamp_indirect, 0.1f, 0, 1000,
                          settings.clamp_indirect > 0 ? "%.1f (biased)" : "off", ImGuiSliderFlags_AlwaysClamp);
+    auto frame_time_ms = static_cast<float>(model.options.frame_time_ms);
+    if (ImGui::SliderFloat("frame time", &frame_time_ms, 5, 200, "%.0f ms",
+                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
+        model.options.frame_time_ms = static_cast<double>(frame_time_ms);
+        edits.frame_time = true;
+    }
     edits.toggle_pause = ImGui::Button(model.status.paused ? "Go on" : "Pause");
 }
 
@@ -165,6 +171,7 @@ PanelEdits draw_side_panel(ViewerModel& model) {
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
     ImGui::PushItemWidth(0.55f * width);
     camera_section(model, edits);
+    views_section(model, edits);
     light_section(model, edits);
     render_section(model, edits);
     display_section(model, edits);

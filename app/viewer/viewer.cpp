@@ -18,6 +18,8 @@ constexpr double notice_seconds = 4;
 constexpr double progress_seconds = 0.05;
 // The first picture of an edit is expected within this; to draw the old one again before it would only delay it.
 constexpr double first_frame_seconds = 0.025;
+// Of a picture that nobody wants more of, in its mean.
+constexpr double invisible_error = 0.001;
 // How near to the line of the wipe the pointer grips it.
 constexpr float wipe_grip_points = 8;
 
@@ -39,6 +41,9 @@ Viewer::Viewer(const RenderOptions& options, const GlContext& context, const Vie
     if (viewer_options.interface) ui_ = std::make_unique<Ui>(context);
     SessionOptions session_options;
     session_options.threads = options.threads;
+    session_options.frame_seconds = 1e-3 * options.frame_time_ms;
+    session_options.kept_bytes = options.limit_views_bytes;
+    session_options.reproject = true;
     session_ = std::make_unique<RenderSession>(session_options);
     session_->show_maps(model_.map.shown);
     denoised_ = std::make_unique<DenoisedPreview>(*session_);
@@ -165,8 +170,8 @@ void Viewer::take_preview() {
     std::optional<LoadedScene> preview = loader_.take_preview();
     if (!preview) return;
     if (!before_preview_) {
-        before_preview_ = Shown{model_.options, model_.job,       model_.view, model_.playback,
-                                shown_pose_,    followed_camera_, next_camera_};
+        before_preview_ = Shown{model_.options, model_.job,       model_.view,  model_.playback,
+                                shown_pose_,    followed_camera_, next_camera_, model_.bookmarks};
     }
     show_scene(std::move(*preview));
     load_is_previewed_ = true;
@@ -183,6 +188,7 @@ void Viewer::bring_back() {
     shown_pose_ = shown.pose;
     followed_camera_ = shown.followed_camera;
     next_camera_ = shown.next_camera;
+    model_.bookmarks = shown.bookmarks;
     pose_epoch_ = 0;
     dirty_ = true;
     if (model_.has_scene()) return;
@@ -249,6 +255,7 @@ void Viewer::show_scene(LoadedScene loaded) {
         } else if (const std::optional<Vec3> middle = pick(Vec2(0.5f))) {
             model_.view.pivot = *middle;
         }
+        forget_views();
         next_camera_ = world.scene->cameras.empty() ? 0 : 1;
         followed_camera_.reset();
         for (uint32_t i = 0; i < world.scene->cameras.size(); ++i) {
@@ -268,6 +275,12 @@ void Viewer::take_environment(const LoadedScene& loaded) {
     dirty_ = true;
 }
 
+// The picture has to be rendered anew, since someone changed it.
+void Viewer::edit() {
+    dirty_ = true;
+    if (!edited_s_) edited_s_ = now_s();
+}
+
 void Viewer::submit() {
     dirty_ = false;
     if (!model_.has_scene() || size_.pixels.x == 0 || size_.pixels.y == 0) return;
@@ -279,9 +292,15 @@ void Viewer::submit() {
     // A window goes on until the person has seen enough.
     const RenderOptions& options = model_.options;
     if (!options.spp && viewer_options_.interface) request.max_spp = std::numeric_limits<uint32_t>::max();
+    // No screen shows a smaller error than this.
+    if (!options.spp && !options.seconds && !options.until_error_percent && viewer_options_.interface)
+        request.until_relative_error = invisible_error;
+    request.bookmarked = is_bookmarked(model_.view);
     // A preview leaves the cores to the pictures that it waits for.
     if (before_preview_) request.max_spp = 1;
+    remember_view();
     const uint64_t epoch = session_->submit(request);
+    if (edited_s_) latency_.submitted(epoch, *std::exchange(edited_s_, std::nullopt));
     if (pose_epoch_ == 0) pose_epoch_ = epoch;
     if (hold_until_s_ < now_s()) hold_until_s_ = now_s() + first_frame_seconds;
 }
@@ -301,6 +320,7 @@ void Viewer::take_frame() {
     if (!display_.upload(*frame_, {denoised != nullptr ? &denoised->image : nullptr, denoised_serial_})) return;
     model_.frame_epoch = frame_->epoch;
     model_.frame_serial = frame_->serial;
+    model_.is_reprojected = frame_->is_reprojected;
     model_.film = frame_->statistics;
     model_.history = frame_->history;
     model_.frame_extent = {frame_->image.width(), frame_->image.height()};
@@ -397,7 +417,11 @@ void Viewer::draw() {
 }
 
 void Viewer::apply(const PanelEdits& edits) {
-    if (edits.view || edits.settings) dirty_ = true;
+    if (edits.view || edits.settings) edit();
+    if (edits.frame_time) session_->set_frame_seconds(1e-3 * model_.options.frame_time_ms);
+    if (edits.store_bookmark) store_bookmark(*edits.store_bookmark);
+    if (edits.recall_bookmark) recall_bookmark(*edits.recall_bookmark);
+    if (edits.step_view != 0) step_view(edits.step_view);
     if (edits.environment) environment_dirty_ = true;
     if (edits.toggle_pause) toggle_pause();
     if (edits.toggle_play) toggle_play();
@@ -435,6 +459,8 @@ double Viewer::seconds_until_update() const {
     if (model_.playback.playing || (loader_.busy() && load_is_ == LoadKind::pose)) return 0.004;
     if (loader_.busy()) return 0.02;
     if (map_is_missing() || denoised_->busy()) return 0.008;
+    // The picture that someone waits for is taken when it comes.
+    if (latency_.waits(model_.frame_epoch)) return 0.001;
     if (model_.has_scene() && !model_.status.done && !model_.status.paused) return 0.008;
     return 0.25;
 }

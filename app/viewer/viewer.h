@@ -31,6 +31,8 @@ class Viewer {
     // again.
     bool update();
     void draw();
+    // What draw drew last is before the person's eyes: ends the measuring of latencies.
+    void presented();
     // What a panel has changed; draw calls it for its own.
     void apply(const PanelEdits& edits);
 
@@ -68,6 +70,7 @@ class Viewer {
         Playback playback, pose;
         std::optional<uint32_t> followed_camera;
         uint32_t next_camera = 0;
+        Bookmarks bookmarks;
     };
     enum class DragMode : uint8_t { none, orbit, pan, dolly, environment, wipe };
 
@@ -80,6 +83,7 @@ class Viewer {
     void show_scene(LoadedScene loaded);
     void bring_back();
     void take_environment(const LoadedScene& loaded);
+    void edit();
     void submit();
     void take_frame();
     void notify(std::string line, bool is_error = false);
@@ -91,6 +95,13 @@ class Viewer {
     void handle_drop(const FilesDropped& event);
     void handle_resize(const WindowResized& event);
     void handle_view_key(Key key);
+
+    bool is_bookmarked(const OrbitView& view) const;
+    void store_bookmark(size_t digit);
+    void recall_bookmark(size_t digit);
+    void step_view(int by);
+    void remember_view();
+    void forget_views();
 
     void set_view(const OrbitView& view);
     void show_file_camera(uint32_t index);
@@ -165,6 +176,12 @@ class Viewer {
     Playback shown_pose_, making_pose_;
     double last_tick_s_ = 0;
     uint64_t pose_epoch_ = 0;  // of the first picture of the pose that is shown; 0: not submitted yet
+
+    LatencyMeter latency_;
+    std::optional<double> edited_s_;  // the first input that has not been submitted
+    ViewHistory view_history_;
+    OrbitView submitted_view_;
+    bool steps_history_ = false;  // the view that is submitted next comes from the history
 
     const Frame* frame_ = nullptr;
     bool dirty_ = false;  // the request has to be submitted

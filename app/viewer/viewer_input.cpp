@@ -28,6 +28,14 @@ bool is_environment_file(const std::string& path) {
     return extension == ".hdr" || extension == ".exr";
 }
 
+bool is_digit(Key key) {
+    return key >= Key::digit_0 && key <= Key::digit_9;
+}
+
+size_t digit_of(Key key) {
+    return static_cast<size_t>(key) - static_cast<size_t>(Key::digit_0);
+}
+
 }  // namespace
 
 void Viewer::handle(const InputEvent& event) {
@@ -75,7 +83,7 @@ void Viewer::set_view(const OrbitView& view) {
     if (view == model_.view) return;
     model_.view = view;
     followed_camera_.reset();
-    dirty_ = true;
+    edit();
 }
 
 void Viewer::handle_mouse_press(const MousePressed& event) {
@@ -155,9 +163,17 @@ void Viewer::handle_key(const KeyPressed& event) {
     if (modifiers.ctrl) {
         if (event.key == Key::q) close_ = true;
         if (event.key == Key::s) save_next(modifiers.shift);
+        if (is_digit(event.key)) store_bookmark(digit_of(event.key));
         return;
     }
-    if (modifiers.alt) return;
+    if (modifiers.alt) {
+        if (event.key == Key::left || event.key == Key::right) step_view(event.key == Key::left ? -1 : 1);
+        return;
+    }
+    if (modifiers.shift && is_digit(event.key)) {
+        recall_bookmark(digit_of(event.key));
+        return;
+    }
     switch (event.key) {
         case Key::home:
         case Key::enter:
@@ -303,7 +319,7 @@ void Viewer::toggle_background() {
     } else {
         settings.background = BackgroundKind::environment;
     }
-    dirty_ = true;
+    edit();
 }
 
 void Viewer::set_focus_at_cursor() {
@@ -339,7 +355,7 @@ void Viewer::handle_drop(const FilesDropped& event) {
 void Viewer::handle_resize(const WindowResized& event) {
     const bool changed = event.pixels != size_.pixels;
     size_ = event;
-    if (changed) dirty_ = true;
+    if (changed) edit();
 }
 
 void Viewer::open_neighbour(int step) {

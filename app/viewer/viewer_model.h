@@ -4,7 +4,9 @@
 
 #include "app/gl/display.h"
 #include "app/render_job.h"
+#include "app/viewer/bookmarks.h"
 #include "app/viewer/error_words.h"
+#include "app/viewer/latency.h"
 #include "app/viewer/map_view.h"
 #include "app/viewer/playback.h"
 #include "app/viewer/scene_loader.h"
@@ -17,6 +19,7 @@ struct ViewerModel {
     RenderJob job;          // its world is null before the first scene
     OrbitView view;
     DisplaySettings display;
+    Bookmarks bookmarks;
     Playback playback;
     MapView map;
     HeatScale map_scale;                        // of the map that is shown
@@ -34,9 +37,11 @@ struct ViewerModel {
     SessionStatus status;
     FilmStatistics film;
     ErrorHistory history;
+    LatencyMeter::Summary latency;  // from an input to its picture
     Vec2u frame_extent{0};
     uint64_t frame_epoch = 0;  // the submit that the frame shown belongs to
     uint64_t frame_serial = 0;
+    bool is_reprojected = false;  // the picture is led over from the view before
     bool loading = false;
     std::string loading_name;
     SceneLoader::State loading_state;
@@ -58,6 +63,9 @@ struct PanelEdits {
     bool map = false;          // another map, or none
     bool denoise = false;      // on or off
     bool toggle_pause = false;
+    bool frame_time = false;  // when young pictures are shown
+    std::optional<size_t> store_bookmark, recall_bookmark;
+    int step_view = 0;  // -1: back, 1: on
     bool frame_all = false;
     bool toggle_play = false;
     std::optional<double> seek_s;                    // on the timeline

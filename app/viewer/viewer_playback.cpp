@@ -76,7 +76,9 @@ void Viewer::follow_file_camera() {
     view.pivot = Vec3(world_from_camera * glm::inverse(view.camera.world_from_camera) * Vec4(view.pivot, 1.0f));
     view.camera.world_from_camera = world_from_camera;
     const std::optional<uint32_t> followed = followed_camera_;
+    const std::optional<double> edited_s = edited_s_;
     set_view(view);
+    edited_s_ = edited_s;
     followed_camera_ = followed;
 }
 

@@ -49,7 +49,7 @@ class Film {
 };
 
 // Writes rows [row_begin, row_end) of the resolved picture. A pixel without samples takes the value of the nearest
-// coarser lattice point (strides 2, 4, 8, 16) that has one, so that a stride-8 pass fills the whole frame.
+// coarser lattice point (strides 2, 4, … 64) that has one, so that a stride-8 pass fills the whole frame.
 void resolve_rows(const Film& film, uint32_t row_begin, uint32_t row_end, Frame& frame) noexcept;
 
 // Shares the rows [0, height) out by calls of work(begin, end), on any threads, and returns when all are done.

@@ -33,8 +33,12 @@ enum class PixelMap : uint8_t {
 };
 
 struct Frame {
-    ImageRgba32f image;   // linear radiance premultiplied by alpha
-    ImageRgba32f maps;    // one PixelMap in each channel; empty unless the session was asked for it
+    ImageRgba32f image;  // linear radiance premultiplied by alpha
+    // The same led over from the view before while samples are few: to look at, never to save or to measure.
+    ImageRgba32f reprojected;
+    bool is_reprojected = false;
+    ImageRgba32f maps;  // one PixelMap in each channel; empty unless the session was asked for it
+    const ImageRgba32f& shown() const { return is_reprojected ? reprojected : image; }
     uint64_t epoch = 0;   // which submit this belongs to
     uint64_t serial = 0;  // counts the frames of a session from 1: two frames with one serial are the same picture
     uint32_t stride = 1;  // 1 once every pixel has a sample of its own

@@ -4,7 +4,7 @@
 namespace candela {
 
 void resolve_rows(const Film& film, uint32_t row_begin, uint32_t row_end, Frame& frame) noexcept {
-    constexpr uint32_t coarsest = 16;
+    constexpr uint32_t coarsest = 64;
     const uint32_t width = film.extent().x;
     for (uint32_t y = row_begin; y < row_end; ++y) {
         for (uint32_t x = 0; x < width; ++x) {

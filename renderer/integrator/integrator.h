@@ -29,6 +29,8 @@ struct RayCounts {
 struct View {
     Camera camera;
     Vec2u extent{1};  // picture size in pixels
+
+    bool operator==(const View&) const = default;
 };
 
 struct PixelSample {

@@ -21,6 +21,7 @@ struct RenderRequest {
     uint32_t max_spp = std::numeric_limits<uint32_t>::max();       // the session idles when every pixel has this many
     double max_seconds = std::numeric_limits<double>::infinity();  // of rendering
     double until_relative_error = 0;  // 0: off; looked at after 2, 4, 6, 8, 12, … 32, 48, … samples
+    bool bookmarked = false;          // other kept views are given up before this one
 };
 
 struct SessionStatus {
@@ -36,14 +37,22 @@ struct SessionStatus {
     // publication of the first frame.
     double last_cancel_seconds = 0;
     double last_first_frame_seconds = 0;
+    uint32_t resumed_samples = 0;  // complete passes that this view had when it was submitted
+    uint32_t kept_views = 0;       // others, whose samples wait
+    uint64_t kept_bytes = 0;
 };
 
 using TraceFunction = decltype(&trace_batch);
 
 struct SessionOptions {
     unsigned threads = 0;  // workers; 0: one per core
-    // The longest a young picture goes without a new frame, in seconds; grows as the picture settles.
+    // The longest a young picture goes without a new frame, in seconds; grows as the picture settles. The first one
+    // comes in as fine a lattice as can be traced in a part of it.
     double frame_seconds = 1.0 / 30.0;
+    // For the samples of views that were left: a request that decides the same samples goes on with them. 0: none.
+    uint64_t kept_bytes = 0;
+    double keep_after_seconds = 0.25;    // of rendering; what was left sooner is only kept where it is bookmarked
+    bool reproject = false;              // frames of a moved camera are led over from the view before
     bool publish_frames = true;          // false: only the last frame is resolved (headless)
     TraceFunction trace = &trace_batch;  // tests put their own here
 };
@@ -61,6 +70,9 @@ class RenderSession {
     // The newest complete frame, or null before the first. Never blocks; the pointer stays valid until the next call.
     // One reader thread.
     const Frame* latest();
+    // What was submitted last counts as bookmarked.
+    void bookmark_view();
+    void set_frame_seconds(double seconds);
     // Whether frames come with maps; the newest one is published again with them.
     void show_maps(bool wanted);
     void pause();

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/session/schedule.h"
 
+#include <utility>
+
 namespace candela {
 
 namespace {
 
+// Pixels along a tile's side.
+uint32_t tile_step(uint32_t stride) {
+    return (stride > 8 ? coarse_tile_side : tile_side) * stride;
+}
+
 uint32_t tiles_along(uint32_t size, uint32_t stride) {
-    const uint32_t step = tile_side * stride;
+    const uint32_t step = tile_step(stride);
     return (size + step - 1) / step;
 }
 
@@ -19,7 +26,7 @@ uint32_t tile_count(const Pass& pass, Vec2u extent) {
 void list_tile(const Pass& pass, Vec2u extent, uint32_t tile, std::vector<PixelSample>& out) {
     out.clear();
     const uint32_t across = tiles_along(extent.x, pass.stride);
-    const uint32_t step = tile_side * pass.stride;
+    const uint32_t step = tile_step(pass.stride);
     const uint32_t left = tile % across * step, top = tile / across * step;
     const uint32_t right = std::min(left + step, extent.x), bottom = std::min(top + step, extent.y);
     for (uint32_t y = top; y < bottom; y += pass.stride) {
@@ -34,7 +41,13 @@ Schedule::Schedule(Vec2u extent, uint32_t first_stride) : extent_(extent), resol
     pass_.stride = first_stride;
 }
 
+void Schedule::give_back(const Slice& slice, std::vector<uint32_t> tiles) {
+    rest_ = slice;
+    rest_.tiles = std::move(tiles);
+}
+
 Slice Schedule::next(uint32_t tiles) {
+    if (!rest_.tiles.empty()) return std::exchange(rest_, {});
     const uint32_t count = tile_count(pass_, extent_);
     Slice slice{pass_, tile_, count};
     if (first_pass_done_) slice.end_tile = std::min(count, tile_ + std::max(tiles, 1u));
@@ -57,8 +70,12 @@ Slice Schedule::next(uint32_t tiles) {
 }
 
 uint32_t choose_first_stride(Vec2u extent, double seconds_per_path, double target_seconds) {
-    const double paths = static_cast<double>(extent.x) * static_cast<double>(extent.y) / 64.0;
-    return paths * seconds_per_path > target_seconds ? 16 : 8;
+    if (!(seconds_per_path > 0)) return 8;
+    uint32_t stride = 1;
+    const auto along = [&](uint32_t size) { return static_cast<double>((size + stride - 1) / stride); };
+    while (stride < coarsest_stride && along(extent.x) * along(extent.y) * seconds_per_path > target_seconds)
+        stride *= 2;
+    return stride;
 }
 
 }  // namespace candela

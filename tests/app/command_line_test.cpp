@@ -123,6 +123,7 @@ TEST_F(CommandLine, WrongUsageIsTwo) {
           std::string("info assets/cornell_box.glb --scene 5"),
           std::string("info assets/cornell_box.glb --variant red"), "screenshot -o " + file("a.png") + " --scene 5",
           "screenshot -o " + file("a.png") + " --map colour", "screenshot -o " + file("a.png") + " --wipe 2",
+          "screenshot -o " + file("a.png") + " --frame-time 1", "screenshot -o " + file("a.png") + " --limit-views -1",
           "screenshot -o " + file("a.png") + " --open doors", "screenshot -o " + file("a.png") + " --variant red",
           "render -o " + file("a.exr") + " --aov colour"}) {
         const Outcome outcome = run(arguments);

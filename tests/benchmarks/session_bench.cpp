@@ -4,9 +4,11 @@
 #include <benchmark/benchmark.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <thread>
 
 #include "renderer/session/render_session.h"
+#include "tests/benchmarks/made_scenes.h"
 #include "tests/benchmarks/percentile.h"
 #include "tests/benchmarks/shared_scenes.h"
 
@@ -93,6 +95,58 @@ void drag(benchmark::State& state, const std::string& name) {
     state.counters["frames/s_p50"] = 1e3 / percentile(gap_ms, 0.5);
     state.counters["frames/s_worst"] = 1e3 / percentile(gap_ms, 1.0);
 }
+
+// Camera edits at 512², each to its first complete picture at reduced resolution, and to the first in which every pixel
+// has a sample of its own; beside it what the same number of camera paths costs on the accelerator alone, where it is
+// known (paths per CPU second of `embree_limit`, in CANDELA_LIMIT_cornell, CANDELA_LIMIT_hotel_room, …).
+void latency(benchmark::State& state, const std::string& label, const std::string& name) {
+    const LoadedScene* scene = loaded_scene(name == "terrain" ? terrain_file().string() : name);
+    if (scene == nullptr) {
+        state.SkipWithError("scene absent");
+        return;
+    }
+    const Vec2u extent(512, 512);
+    RenderSession session;
+    std::vector<double> coarse_ms, whole_ms, strides;
+    int step = 0;
+    for (auto _ : state) {
+        View view = dragged(*scene, step++);
+        view.extent = extent;
+        const Clock::time_point start = Clock::now();
+        const uint64_t epoch = session.submit({scene->world, view, {}});
+        bool coarse = false;
+        for (;;) {
+            const Frame* frame = session.latest();
+            if (frame != nullptr && frame->epoch == epoch && !coarse) {
+                coarse = true;
+                coarse_ms.push_back(1e3 * seconds_since(start));
+                strides.push_back(frame->stride);
+            }
+            if (coarse && session.status().spp > 0) break;
+            std::this_thread::sleep_for(std::chrono::microseconds(200));
+        }
+        whole_ms.push_back(1e3 * seconds_since(start));
+    }
+    state.counters["coarse_p50_ms"] = percentile(coarse_ms, 0.5);
+    state.counters["coarse_p95_ms"] = percentile(coarse_ms, 0.95);
+    state.counters["stride_p50"] = percentile(strides, 0.5);
+    state.counters["whole_p50_ms"] = percentile(whole_ms, 0.5);
+    if (const char* limit = std::getenv(("CANDELA_LIMIT_" + label).c_str())) {
+        const double cores = std::max(1u, std::thread::hardware_concurrency());
+        const double limit_ms = 1e3 * extent.x * extent.y / (std::atof(limit) * cores);
+        state.counters["whole/limit"] = percentile(whole_ms, 0.5) / limit_ms;
+    }
+}
+
+BENCHMARK_CAPTURE(latency, cornell, "cornell", "assets/cornell_box.glb")
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(60)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(latency, hotel_room, "hotel_room", "models/HotelRoom/scene.glb")
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(60)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(latency, terrain, "terrain", "terrain")->Unit(benchmark::kMillisecond)->Iterations(60)->UseRealTime();
 
 #define CANDELA_SESSION(label, file)                                                                            \
     BENCHMARK_CAPTURE(camera_edit, label, file)->Unit(benchmark::kMillisecond)->Iterations(100)->UseRealTime(); \

@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include <chrono>
+#include <ctime>
 #include <thread>
 
 #include "app/gl/osmesa_context.h"
@@ -24,7 +25,37 @@ bool turn(Viewer& viewer) {
     std::this_thread::sleep_for(std::chrono::duration<double>(std::min(viewer.seconds_until_update(), 0.001)));
     if (!viewer.update()) return false;
     viewer.draw();
+    viewer.presented();
     return true;
+}
+
+// The share of one core that a window takes whose picture is done.
+double idle_percent(Viewer& viewer) {
+    while (!viewer.finished())
+        turn(viewer);
+    for (int i = 0; i < 5; ++i)
+        turn(viewer);
+    const std::clock_t cpu = std::clock();
+    const Clock::time_point start = Clock::now();
+    while (ms_since(start) < 3000) {
+        std::this_thread::sleep_for(std::chrono::duration<double>(viewer.seconds_until_update()));
+        if (viewer.update()) viewer.draw();
+    }
+    return 100.0 * static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC / (1e-3 * ms_since(start));
+}
+
+void viewer_idle(benchmark::State& state, const std::string& name) {
+    RenderOptions options;
+    options.scene = scene_path(name).string();
+    options.spp = 2;
+    if (!std::filesystem::exists(options.scene)) {
+        state.SkipWithError("scene absent");
+        return;
+    }
+    const OsmesaContext context({1280, 720});
+    Viewer viewer(options, context);
+    for (auto _ : state)
+        state.counters["cpu_percent"] = idle_percent(viewer);
 }
 
 void viewer_drag(benchmark::State& state, const std::string& name) {
@@ -80,10 +111,15 @@ void viewer_drag(benchmark::State& state, const std::string& name) {
     }
     state.counters["edit_to_picture_p50_ms"] = percentile(edit_ms, 0.5);
     state.counters["edit_to_picture_p95_ms"] = percentile(edit_ms, 0.95);
+    state.counters["input_to_picture_p50_ms"] = 1e3 * viewer.model().latency.median_s;
     state.counters["pictures/s_p50"] = 1e3 / percentile(gap_ms, 0.5);
     state.counters["pictures/s_worst"] = 1e3 / percentile(gap_ms, 1.0);
 }
 
+BENCHMARK_CAPTURE(viewer_idle, hotel_room, "models/HotelRoom/scene.glb")
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1)
+    ->UseRealTime();
 BENCHMARK_CAPTURE(viewer_drag, cornell_box, "assets/cornell_box.glb")
     ->Unit(benchmark::kMillisecond)
     ->Iterations(2)

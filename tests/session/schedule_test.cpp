@@ -9,7 +9,7 @@ namespace {
 
 TEST(Schedule, LatticesCoverEveryPixelOnceThenPassesFollow) {
     for (const Vec2u extent : {Vec2u(1, 1), Vec2u(7, 130), Vec2u(257, 33), Vec2u(64, 64)}) {
-        for (const uint32_t first_stride : {8u, 16u}) {
+        for (const uint32_t first_stride : {1u, 8u, 16u, 64u}) {
             Schedule schedule(extent, first_stride);
             std::vector<PixelSample> samples;
             std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> seen;
@@ -40,10 +40,32 @@ TEST(Schedule, TheFirstPassComesWholeAndIsCoarse) {
     EXPECT_EQ(schedule.next(1).end_tile, 1u);
 }
 
-TEST(Schedule, SlowScenesBeginCoarser) {
-    EXPECT_EQ(choose_first_stride({1280, 720}, 0, 0.025), 8u);
-    EXPECT_EQ(choose_first_stride({1280, 720}, 1e-6, 0.025), 8u);
-    EXPECT_EQ(choose_first_stride({1280, 720}, 3e-6, 0.025), 16u);
+TEST(Schedule, WhatIsGivenBackComesNext) {
+    const Vec2u extent(130, 70);
+    Schedule schedule(extent, 2);
+    schedule.next(1000);
+    Slice slice = schedule.next(1000);
+    EXPECT_EQ(slice.pass.stride, 1u);
+    EXPECT_EQ(schedule.complete_samples(), 1u);
+    schedule.give_back(slice, {3, 5});
+    EXPECT_EQ(schedule.complete_samples(), 0u) << "some pixels have no sample";
+    const Slice rest = schedule.next(1000);
+    EXPECT_EQ(rest.pass.stride, 1u);
+    ASSERT_EQ(rest.size(), 2u);
+    EXPECT_EQ(rest.tile(0), 3u);
+    EXPECT_EQ(rest.tile(1), 5u);
+    EXPECT_EQ(schedule.complete_samples(), 1u);
+    EXPECT_EQ(schedule.next(1000).pass.sample_index, 1u);
+}
+
+TEST(Schedule, TheFirstLatticeIsAsFineAsTimeAllows) {
+    EXPECT_EQ(choose_first_stride({1280, 720}, 0, 0.012), 8u) << "nothing is known yet";
+    EXPECT_EQ(choose_first_stride({1280, 720}, 1e-9, 0.012), 1u);
+    EXPECT_EQ(choose_first_stride({512, 512}, 0.7e-6, 0.012), 4u);
+    EXPECT_EQ(choose_first_stride({1280, 720}, 1e-6, 0.012), 16u);
+    EXPECT_EQ(choose_first_stride({1280, 720}, 3e-6, 0.012), 16u);
+    EXPECT_EQ(choose_first_stride({1280, 720}, 3e-6, 0.01), 32u);
+    EXPECT_EQ(choose_first_stride({1280, 720}, 1, 0.012), coarsest_stride);
 }
 
 TEST(TripleBuffer, ReaderGetsTheNewestAndKeepsIt) {

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Going back to views: bookmarks, and those that were left. Their samples wait in the session.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "app/viewer/viewer.h"
+
+namespace candela {
+
+namespace {
+
+// A view that was left sooner was only passed by.
+constexpr double looked_at_seconds = 0.25;
+
+}  // namespace
+
+bool Viewer::is_bookmarked(const OrbitView& view) const {
+    return std::any_of(model_.bookmarks.begin(), model_.bookmarks.end(), [&](const std::optional<Bookmark>& bookmark) {
+        return bookmark && bookmark->view.camera == view.camera;
+    });
+}
+
+void Viewer::store_bookmark(size_t digit) {
+    if (!model_.has_scene()) return;
+    model_.bookmarks[digit] = Bookmark{model_.view, model_.display.tone};
+    session_->bookmark_view();
+    notify(fmt::format("view stored: Shift+{} comes back to it", digit));
+}
+
+void Viewer::recall_bookmark(size_t digit) {
+    if (!model_.has_scene()) return;
+    const std::optional<Bookmark>& bookmark = model_.bookmarks[digit];
+    if (!bookmark) {
+        notify(fmt::format("no view is stored as {0}: Ctrl+{0} stores one", digit));
+        return;
+    }
+    model_.display.tone = bookmark->tone;
+    set_view(bookmark->view);
+    redraws_ = 2;
+}
+
+void Viewer::step_view(int by) {
+    if (!model_.has_scene()) return;
+    // So that the way back leads here again.
+    if (!view_history_.can_step(1)) view_history_.add(model_.view);
+    if (const std::optional<OrbitView> view = view_history_.step(by)) {
+        steps_history_ = true;
+        set_view(*view);
+    } else {
+        notify(by < 0 ? "there is no view before this one" : "there is no view after this one");
+    }
+}
+
+// Before another view is submitted.
+void Viewer::remember_view() {
+    const OrbitView left = std::exchange(submitted_view_, model_.view);
+    const bool stepped = std::exchange(steps_history_, false);
+    if (stepped || left == model_.view) return;
+    const bool looked_at = model_.status.done || model_.status.render_seconds >= looked_at_seconds;
+    if (model_.frame_epoch != 0 && looked_at) view_history_.add(left);
+}
+
+void Viewer::forget_views() {
+    view_history_.clear();
+    model_.bookmarks = {};
+    submitted_view_ = model_.view;
+}
+
+void Viewer::presented() {
+    latency_.shown(model_.frame_epoch, now_s());
+    model_.latency = latency_.summary();
+}
+
+}  // namespace candela
