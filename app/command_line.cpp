@@ -6,6 +6,7 @@
 
 #include "app/commands.h"
 #include "app/picture_file.h"
+#include "app/viewer/compared_settings.h"
 
 namespace candela {
 
@@ -112,7 +113,7 @@ std::vector<std::string> parse_list(const std::string& text) {
 
 // Options as text, turned into values once CLI11 has read them.
 struct RawRenderOptions {
-    std::string resolution, eye, target, up, sky, background, aov, frames, open;
+    std::string resolution, eye, target, up, sky, background, aov, frames, open, compared;
 };
 
 void add_render_options(CLI::App& command, RenderOptions& options, RawRenderOptions& raw) {
@@ -203,13 +204,23 @@ void add_render_options(CLI::App& command, RenderOptions& options, RawRenderOpti
 }
 
 // What only the window and its pictures show.
-void add_viewer_options(CLI::App& command, RenderOptions& options) {
+void add_viewer_options(CLI::App& command, RenderOptions& options, RawRenderOptions& raw) {
     const std::map<std::string, PixelMap> maps{{"error", PixelMap::error},
                                                {"samples", PixelMap::samples},
                                                {"rays", PixelMap::rays},
                                                {"bounces", PixelMap::bounces}};
     take_one_of(maps, command.add_option("--map", options.map,
                                          "beside the picture, as colours: error, samples, rays or bounces of a pixel"));
+    const std::map<std::string, ReferenceMetric> metrics{{"signed", ReferenceMetric::signed_difference},
+                                                         {"relmse", ReferenceMetric::relative_square},
+                                                         {"flip", ReferenceMetric::flip}};
+    command
+        .add_option("--compare-with", raw.compared,
+                    "the same view beside it with other settings: mis, light, bsdf, sobol, independent, depth=N")
+        ->type_name("LIST");
+    command.add_option("--reference", options.reference, "a picture to measure the distance to")->type_name("FILE");
+    take_one_of(metrics, command.add_option("--metric", options.metric,
+                                            "beside the picture, how far each pixel is from the reference"));
     command.add_flag("--denoise", options.denoise, "shows the picture without its noise: a preview, not the truth");
     command
         .add_option("--frame-time", options.frame_time_ms,
@@ -247,6 +258,17 @@ void finish_render_options(const RawRenderOptions& raw, RenderOptions& options) 
     }
     options.aovs = parse_list(raw.aov);
     options.open = parse_list(raw.open);
+    options.compared = parse_list(raw.compared);
+    std::string unknown;
+    compared_settings(options.integrator, options.compared, &unknown);
+    if (!unknown.empty())
+        throw usage("--compare-with " + unknown + ": is none of mis,light,bsdf,sobol,independent,depth=N");
+    if (options.metric && options.reference.empty()) throw usage("--metric needs a --reference to measure against");
+    if (!options.compared.empty() && (options.map || options.metric))
+        throw usage("--compare-with stands where --map and --metric do; give one of them");
+    std::error_code error;
+    if (!options.reference.empty() && !std::filesystem::exists(options.reference, error))
+        throw CommandError(ExitStatus::unreadable_scene, options.reference + ": there is no such file");
     for (const std::string& name : options.open) {
         if (name != "panels" && name != "statistics" && name != "help")
             throw usage("--open " + name + ": is none of panels,statistics,help");
@@ -277,13 +299,13 @@ ExitStatus dispatch(int argc, char** argv) {
     CLI::App* view_command = app.add_subcommand("view", "open the window (also without a command)");
     add_render_options(*view_command, render, raw);
     for (CLI::App* command : {&app, view_command})
-        add_viewer_options(*command, render);
+        add_viewer_options(*command, render, raw);
 
     bool with_interface = true;
     CLI::App* screenshot_command = app.add_subcommand("screenshot", "the viewer's own picture, drawn off-screen");
     add_render_options(*screenshot_command, render, raw);
     screenshot_command->add_option("-o,--output", render.output, "ends in .png")->required()->type_name("OUT.png");
-    add_viewer_options(*screenshot_command, render);
+    add_viewer_options(*screenshot_command, render, raw);
     screenshot_command->add_option("--open", raw.open, "panels to show: panels,statistics,help")->type_name("LIST");
     screenshot_command->add_flag("--ui,!--no-ui", with_interface, "with its panels, or only the picture");
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderer/film/frame.h"
+#include "renderer/image/compare.h"
 #include "renderer/image/tone.h"
 #include "renderer/integrator/settings.h"
 #include "renderer/io/load_gltf.h"
@@ -48,11 +49,14 @@ struct RenderOptions {
     std::optional<FrameRange> frames;  // pictures of the animation, numbered
     double fps = 30;                   // picture k shows the time k / fps
     std::vector<std::string> aovs;
-    std::optional<PixelMap> map;         // beside the picture, in the window
-    bool denoise = false;                // shows the denoised preview
-    float wipe = 0.5f;                   // where it begins: 0 at the left edge, 1 at the right
-    std::vector<std::string> open;       // panels of a screenshot
-    double frame_time_ms = 1000.0 / 30;  // how often a young picture is shown anew, and how fine it begins
+    std::optional<PixelMap> map;            // beside the picture, in the window
+    std::vector<std::string> compared;      // words of compared_settings; empty: no comparison
+    std::string reference;                  // a picture that is taken for the truth
+    std::optional<ReferenceMetric> metric;  // shown in place of a map
+    bool denoise = false;                   // shows the denoised preview
+    float wipe = 0.5f;                      // where it begins: 0 at the left edge, 1 at the right
+    std::vector<std::string> open;          // panels of a screenshot
+    double frame_time_ms = 1000.0 / 30;     // how often a young picture is shown anew, and how fine it begins
     uint64_t limit_views_bytes = uint64_t{512} << 20;  // for the samples of views that were left
     std::string stats_file;                            // "-": standard output
     std::string output;

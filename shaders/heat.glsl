@@ -16,6 +16,12 @@ vec3 heat_color(float t) {
     return clamp(color, 0.0, 1.0);
 }
 
+vec3 difference_color(float t) {
+    const vec3 middle = vec3(0.12, 0.12, 0.13), below = vec3(0.25, 0.60, 1.0), above = vec3(1.0, 0.62, 0.20);
+    t = clamp(t, -1.0, 1.0);
+    return middle + sqrt(abs(t)) * ((t < 0.0 ? below : above) - middle);
+}
+
 float heat_position(float value, float low, float high, bool logarithmic) {
     if (logarithmic) return log(max(value, low) / low) / log(high / low);
     return (value - low) / (high - low);

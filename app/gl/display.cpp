@@ -24,7 +24,7 @@ Display::Display(const GlContext& context)
       program_(context.gl(), {shaders::display_vert}, {shaders::tone_glsl, shaders::heat_glsl, shaders::display_frag}) {
     const GlFunctions& gl = context_.gl();
     gl.GenVertexArrays(1, &vertex_array_);
-    for (GLuint* texture : {&texture_, &maps_texture_}) {
+    for (GLuint* texture : {&texture_, &maps_texture_, &other_texture_, &differences_texture_}) {
         gl.GenTextures(1, texture);
         gl.BindTexture(GL_TEXTURE_2D, *texture);
         gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -34,8 +34,8 @@ Display::Display(const GlContext& context)
 }
 
 Display::~Display() {
-    context_.gl().DeleteTextures(1, &texture_);
-    context_.gl().DeleteTextures(1, &maps_texture_);
+    for (const GLuint texture : {texture_, maps_texture_, other_texture_, differences_texture_})
+        context_.gl().DeleteTextures(1, &texture);
     context_.gl().DeleteVertexArrays(1, &vertex_array_);
 }
 
@@ -93,17 +93,23 @@ void Display::draw(const DisplaySettings& settings) {
         gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
         gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
     };
-    const bool map_shown = settings.map.has_value() && has_maps_;
-    if (map_shown) bind(GL_TEXTURE1, maps_texture_, GL_NEAREST);
+    const DisplayedMap map = settings.map.value_or(DisplayedMap{});
+    const bool map_shown = settings.map.has_value() && (map.metric ? differences_extent_.x > 0 : has_maps_);
+    const bool other_shown = settings.other.has_value() && other_extent_.x > 0;
+    if (map_shown) bind(GL_TEXTURE1, map.metric ? differences_texture_ : maps_texture_, GL_NEAREST);
+    if (other_shown) bind(GL_TEXTURE2, other_texture_, exact && other_extent_ == extent_ ? GL_NEAREST : GL_LINEAR);
     bind(GL_TEXTURE0, texture_, exact ? GL_NEAREST : GL_LINEAR);
     program_.use();
-    const DisplayedMap map = settings.map.value_or(DisplayedMap{});
+    const int channel = map.metric ? static_cast<int>(*map.metric) : static_cast<int>(map.map);
+    gl.Uniform1i(program_.uniform("other"), 2);
+    gl.Uniform1i(program_.uniform("other_shown"), other_shown ? 1 : 0);
+    gl.Uniform1i(program_.uniform("map_of_differences"), map.metric == ReferenceMetric::signed_difference ? 1 : 0);
     gl.Uniform1i(program_.uniform("maps"), 1);
-    gl.Uniform1i(program_.uniform("map_channel"), map_shown ? static_cast<int>(map.map) : -1);
+    gl.Uniform1i(program_.uniform("map_channel"), map_shown ? channel : -1);
     gl.Uniform1f(program_.uniform("map_low"), map.scale.low);
     gl.Uniform1f(program_.uniform("map_high"), map.scale.high);
     gl.Uniform1i(program_.uniform("map_logarithmic"), map.scale.logarithmic ? 1 : 0);
-    gl.Uniform1f(program_.uniform("wipe"), map.wipe);
+    gl.Uniform1f(program_.uniform("wipe"), other_shown ? *settings.other : map.wipe);
     gl.Uniform1i(program_.uniform("frame"), 0);
     gl.Uniform1i(program_.uniform("curve"), static_cast<int>(settings.tone.curve));
     gl.Uniform1f(program_.uniform("radiance_scale"), std::exp2(settings.tone.exposure_ev));

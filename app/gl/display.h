@@ -8,6 +8,7 @@
 #include "app/gl/gl_context.h"
 #include "app/gl/gl_program.h"
 #include "renderer/film/frame.h"
+#include "renderer/image/compare.h"
 #include "renderer/image/heat.h"
 #include "renderer/image/tone.h"
 
@@ -18,12 +19,15 @@ struct DisplayedMap {
     PixelMap map = PixelMap::error;
     HeatScale scale;
     float wipe = 0;  // 0 at the picture's left edge, 1 at its right
+    // In place of the frame's map one of upload_differences.
+    std::optional<ReferenceMetric> metric = std::nullopt;
 };
 
 struct DisplaySettings {
     ToneSettings tone;
     bool checkerboard = true;  // under pixels that are not opaque; else their alpha goes to the framebuffer
     std::optional<DisplayedMap> map = std::nullopt;  // drawn where the frame came with maps
+    std::optional<float> other = std::nullopt;       // where the other picture begins, if there is one
 };
 
 // A picture of that extent as large as it fits in the middle of the framebuffer; pixels, from the bottom left.
@@ -50,6 +54,11 @@ class Display {
     // returns whether it did. Throws GlError
     // where it exceeds the driver's texture size.
     bool upload(const Frame& frame, const StandIn& stand_in = {});
+    // Another picture, drawn to the right of a line; and maps of differences from a reference.
+    void upload_other(const ImageRgba32f& image) { other_extent_ = upload_image(image, other_texture_, other_extent_); }
+    void upload_differences(const ImageRgba32f& maps) {
+        differences_extent_ = upload_image(maps, differences_texture_, differences_extent_);
+    }
     // Forgets the frame uploaded last.
     void clear() { extent_ = Vec2u(0); }
     // Clears the framebuffer and draws the frame uploaded last, if any, into its fit_rectangle.
@@ -61,8 +70,8 @@ class Display {
 
     const GlContext& context_;
     GlProgram program_;
-    GLuint texture_ = 0, maps_texture_ = 0, vertex_array_ = 0;
-    Vec2u extent_{0}, maps_extent_{0};
+    GLuint texture_ = 0, maps_texture_ = 0, other_texture_ = 0, differences_texture_ = 0, vertex_array_ = 0;
+    Vec2u extent_{0}, maps_extent_{0}, other_extent_{0}, differences_extent_{0};
     uint64_t serial_ = 0, stand_in_serial_ = 0;  // of what was uploaded last; the latter 0: the frame's own picture
     bool has_maps_ = false;
 };

@@ -11,7 +11,8 @@ namespace candela {
 namespace {
 
 const ImU32 mean_color = IM_COL32(232, 163, 61, 255), bound_color = IM_COL32(150, 170, 200, 255),
-            grid_color = IM_COL32(255, 255, 255, 36), faint_grid_color = IM_COL32(255, 255, 255, 14);
+            other_color = IM_COL32(110, 185, 235, 255), grid_color = IM_COL32(255, 255, 255, 36),
+            faint_grid_color = IM_COL32(255, 255, 255, 14);
 
 // One logarithmic axis, from a value to a place on the screen.
 struct Axis {
@@ -76,9 +77,13 @@ void draw_convergence(const ViewerModel& model) {
     const float width = std::min(31 * unit, ImGui::GetIO().DisplaySize.x - 4 * unit), height = 9 * unit;
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
     ImGui::TextUnformatted(words.sentence.c_str());
+    if (const std::string compared = comparison_words(model); !compared.empty())
+        ImGui::TextUnformatted(compared.c_str());
     ImGui::PopTextWrapPos();
 
     // The axes hold the curves, and the target with the time to it where that is not far off.
+    const std::vector<ErrorPoint>& others =
+        model.comparison.shown ? model.comparison.history.points() : std::vector<ErrorPoint>{};
     const std::optional<ErrorTrend> trend = fit_trend(model.history);
     const double target = next_target(model.film.relative_error, asked_error(model));
     std::optional<double> seconds;
@@ -90,6 +95,12 @@ void draw_convergence(const ViewerModel& model) {
     for (const ErrorPoint& point : points) {
         y.low = std::min(y.low, point.relative_error);
         y.high = std::max(y.high, std::max(point.relative_error, point.relative_error_95));
+    }
+    for (const ErrorPoint& point : others) {
+        x.low = std::min(x.low, point.seconds);
+        x.high = std::max(x.high, point.seconds);
+        y.low = std::min(y.low, point.relative_error);
+        y.high = std::max(y.high, point.relative_error);
     }
     const double target_seconds = points.back().seconds + seconds.value_or(0);
     const bool shows_target = seconds && target_seconds < 30 * x.high;
@@ -131,8 +142,13 @@ void draw_convergence(const ViewerModel& model) {
     });
     draw->AddRect({x.from, y.to}, {x.to, y.from}, grid_color);
 
-    draw_curve(draw, x, y, points, bound_color, [](const ErrorPoint& p) { return p.relative_error_95; });
-    draw_curve(draw, x, y, points, mean_color, [](const ErrorPoint& p) { return p.relative_error; });
+    const auto mean = [](const ErrorPoint& p) { return p.relative_error; };
+    if (model.comparison.shown) {
+        draw_curve(draw, x, y, others, other_color, mean);
+    } else {
+        draw_curve(draw, x, y, points, bound_color, [](const ErrorPoint& p) { return p.relative_error_95; });
+    }
+    draw_curve(draw, x, y, points, mean_color, mean);
 
     // Where it goes: the fitted line on to the target.
     if (shows_target && *seconds > 0) {
@@ -151,8 +167,15 @@ void draw_convergence(const ViewerModel& model) {
     if (trend)
         key(fmt::format("slope {}{:.2f}", trend->slope > 0 ? "−" : "", std::abs(trend->slope)),
             ImGui::GetColorU32(ImGuiCol_Text));
-    key("95 %", bound_color);
-    key("mean", mean_color);
+    if (model.comparison.shown) {
+        const IntegratorSettings& settings = model.job.request.settings;
+        const IntegratorSettings other = model.comparison.settings.in(settings);
+        key(words_of(other, settings), other_color);
+        key(words_of(settings, other), mean_color);
+    } else {
+        key("95 %", bound_color);
+        key("mean", mean_color);
+    }
     ImGui::Dummy({width, height});
 }
 

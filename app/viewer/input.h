@@ -17,7 +17,7 @@ enum class Key : uint16_t {
     none = 0, space = ' ', comma = ',', period = '.', left_bracket = '[', right_bracket = ']',
     digit_0 = '0', digit_1, digit_2, digit_3, digit_4, digit_5, digit_6, digit_7, digit_8, digit_9,
     a = 'A', b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z,
-    escape = 256, enter, tab, backspace, delete_key, left, right, up, down, home, end, f5, f12
+    escape = 256, enter, tab, backspace, delete_key, left, right, up, down, home, end, f5, f12, shift
 };
 // clang-format on
 

@@ -14,6 +14,11 @@ ImU32 heat_u32(float t) {
     return ImGui::ColorConvertFloat4ToU32({color.x, color.y, color.z, 1});
 }
 
+ImU32 difference_u32(float t) {
+    const Vec3 color = difference_color(t);
+    return ImGui::ColorConvertFloat4ToU32({color.x, color.y, color.z, 1});
+}
+
 // A word on dark ground beside the line.
 void label(ImDrawList* draw, const char* words, float x, float y, float pivot) {
     const float unit = ImGui::GetFontSize();
@@ -22,6 +27,11 @@ void label(ImDrawList* draw, const char* words, float x, float y, float pivot) {
     draw->AddRectFilled({at.x - 0.4f * unit, at.y - 0.2f * unit}, {at.x + size.x + 0.4f * unit, at.y + 1.2f * unit},
                         IM_COL32(23, 23, 26, 225), 0.25f * unit);
     draw->AddText(at, IM_COL32(237, 237, 235, 255), words);
+}
+
+// "light points, ±1.2 %"
+std::string side_words(const std::string& settings, const FilmStatistics& film) {
+    return std::isfinite(film.relative_error) ? settings + ", ±" + percent_text(film.relative_error) : settings;
 }
 
 // The bar's marks: decades, or quarters of a linear scale.
@@ -40,16 +50,20 @@ std::vector<float> marks_of(const HeatScale& scale) {
 }  // namespace
 
 std::optional<float> wipe_x(const ViewerModel& model) {
-    if (!model.map.shown || !model.has_scene() || model.frame_extent.x == 0) return std::nullopt;
+    if (!model.map.shown && !model.comparison.shown) return std::nullopt;
+    if (!model.has_scene() || model.frame_extent.x == 0 || (model.reference && model.reference->held))
+        return std::nullopt;
     return model.picture_left + model.map.wipe * model.picture_width;
 }
 
-void draw_denoised_badge(const ViewerModel& model) {
-    if (!model.denoised_spp || !model.has_scene()) return;
+void draw_badge(const ViewerModel& model) {
+    const bool reference = model.reference && model.reference->held;
+    if ((!model.denoised_spp && !reference) || !model.has_scene()) return;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float unit = ImGui::GetFontSize();
     const std::string words =
-        fmt::format("denoised, of {} sample{}", *model.denoised_spp, *model.denoised_spp == 1 ? "" : "s");
+        reference ? "the reference: " + file_name(model.reference->path)
+                  : fmt::format("denoised, of {} sample{}", *model.denoised_spp, *model.denoised_spp == 1 ? "" : "s");
     label(ImGui::GetBackgroundDrawList(), words.c_str(), display.x - unit, display.y - 4.0f * unit, 1);
 }
 
@@ -73,18 +87,26 @@ void draw_wipe(const ViewerModel& model) {
 
     // What is on either side, where there is room for it.
     const float left = model.picture_left, right = left + model.picture_width;
-    const char* title = title_of(model.map.map);
+    const IntegratorSettings& settings = model.job.request.settings;
+    const IntegratorSettings other = model.comparison.settings.in(settings);
+    std::string picture = model.denoised_spp ? "denoised" : "picture", title = title_of(model.map);
+    if (model.comparison.shown) {
+        picture = side_words(words_of(settings, other), model.film);
+        title = side_words(words_of(other, settings), model.comparison.film);
+    }
     const float top = bottom - 2.2f * unit;
-    const char* picture = model.denoised_spp ? "denoised" : "picture";
-    if (x - left > ImGui::CalcTextSize(picture).x + 2 * unit) label(draw, picture, x - unit, top, 1);
-    if (right - x > ImGui::CalcTextSize(title).x + 2 * unit) label(draw, title, x + unit, top, 0);
+    if (x - left > ImGui::CalcTextSize(picture.c_str()).x + 2 * unit) label(draw, picture.c_str(), x - unit, top, 1);
+    if (right - x > ImGui::CalcTextSize(title.c_str()).x + 2 * unit) label(draw, title.c_str(), x + unit, top, 0);
 }
 
 void draw_legend(const ViewerModel& model, bool beside_readings) {
     if (!model.map.shown || !model.has_scene()) return;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float unit = ImGui::GetFontSize();
-    const bool is_error = model.map.map == PixelMap::error;
+    if (model.reference && model.reference->held) return;
+    const std::optional<ReferenceMetric> metric = model.map.metric;
+    const bool is_difference = metric == ReferenceMetric::signed_difference;
+    const bool is_error = metric ? is_difference : model.map.map == PixelMap::error;
     const HeatScale& scale = model.map_scale;
     // At the left above the status line; where readings stand there, in the middle above the timeline.
     const float foot = beside_readings && timeline_is_shown(model) ? 5.4f * unit : 2.4f * unit;
@@ -94,8 +116,11 @@ void draw_legend(const ViewerModel& model, bool beside_readings) {
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize |
                      ImGuiWindowFlags_NoInputs);
-    ImGui::TextUnformatted(title_of(model.map.map));
-    if (is_error) {
+    ImGui::TextUnformatted(title_of(model.map));
+    if (metric && model.reference && model.reference->mean_samples) {
+        ImGui::SameLine();
+        ImGui::TextDisabled("%s", metric_words(*metric, model.reference->difference).c_str());
+    } else if (!metric && is_error) {
         ImGui::SameLine();
         ImGui::TextDisabled("of its value");
     }
@@ -108,13 +133,16 @@ void draw_legend(const ViewerModel& model, bool beside_readings) {
     const float left = at.x + inset, span = width - 2 * inset;
     for (int i = 0; i < steps; ++i) {
         const float a = static_cast<float>(i) / steps, b = static_cast<float>(i + 1) / steps;
-        draw->AddRectFilledMultiColor({left + a * span, at.y}, {left + b * span, at.y + height}, heat_u32(a),
-                                      heat_u32(b), heat_u32(b), heat_u32(a));
+        const ImU32 from = is_difference ? difference_u32(2 * a - 1) : heat_u32(a);
+        const ImU32 to = is_difference ? difference_u32(2 * b - 1) : heat_u32(b);
+        draw->AddRectFilledMultiColor({left + a * span, at.y}, {left + b * span, at.y + height}, from, to, to, from);
     }
     draw->AddRect({left - 1, at.y - 1}, {left + span + 1, at.y + height + 1}, IM_COL32(110, 110, 112, 255));
     for (const float mark : marks_of(scale)) {
         const float x = left + span * scale.position(mark);
-        const std::string words = is_error ? fmt::format("{:.3g} %", 100 * mark) : fmt::format("{:.4g}", mark);
+        const std::string words =
+            is_error ? fmt::format("{:.3g} %", is_difference && std::abs(mark) < 1e-4f ? 0.0f : 100 * mark)
+                     : fmt::format("{:.4g}", mark);
         draw->AddLine({x, at.y + height + 1}, {x, at.y + height + 0.3f * unit}, IM_COL32(160, 160, 158, 255));
         draw->AddText({x - 0.5f * ImGui::CalcTextSize(words.c_str()).x, at.y + height + 0.4f * unit},
                       ImGui::GetColorU32(ImGuiCol_Text), words.c_str());

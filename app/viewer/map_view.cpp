@@ -22,6 +22,19 @@ const char* title_of(PixelMap map) {
     return titles[static_cast<size_t>(map)];
 }
 
+const char* title_of(const MapView& view) {
+    if (!view.metric) return title_of(view.map);
+    constexpr const char* titles[] = {"difference from the reference", "squared error", "FLIP"};
+    return titles[static_cast<size_t>(*view.metric)];
+}
+
+// Differences run from minus to plus half of the reference's value, squared errors over six decades.
+HeatScale scale_of(ReferenceMetric metric) {
+    if (metric == ReferenceMetric::signed_difference) return {-0.5f, 0.5f, false};
+    if (metric == ReferenceMetric::relative_square) return {1e-6f, 1, true};
+    return {0, 1, false};
+}
+
 HeatScale scale_of(PixelMap map, const ImageRgba32f& maps) {
     if (map == PixelMap::error) return {1e-3f, 1, true};
     double sum = 0, squares = 0, largest = 0;

@@ -100,6 +100,10 @@ void draw_status_line(const ViewerModel& model) {
             line.item("±" + percent_text(model.film.relative_error));
         line.item(speed);
         if (model.denoised_spp) line.item("denoised", &accent);
+        if (model.reference && model.reference->mean_samples) {
+            line.item(
+                metric_words(model.map.metric.value_or(ReferenceMetric::relative_square), model.reference->difference));
+        }
         if (model.job.request.settings.biased()) line.item("biased", &alarm);
         if (model.film.non_finite > 0) line.item(fmt::format("{} samples not finite", model.film.non_finite), &alarm);
         if (!model.job.warnings.empty()) {
@@ -172,10 +176,13 @@ void draw_help() {
                                        {"wipe of the map", "drag its line; , and ."},
                                        {"pause rendering", "P"},
                                        {"denoised preview", "D"},
+                                       {"compare two settings", "B"},
+                                       {"reference, its measures", "hold Shift, M"},
                                        {"save picture, the denoised one", "Ctrl+S, Ctrl+Shift+S"},
                                        {"reload", "F5"},
                                        {"next, previous file", "right, left arrow"},
                                        {"open", "drop a .gltf, .glb, .hdr or .exr file"},
+                                       {"open a reference", "Shift and drop an .exr, .hdr or .png file"},
                                        {"statistics, panels, help", "Z  Tab  H"},
                                        {"quit", "Ctrl+Q"}};
     place({0.5f, 0.5f}, {0, 0});
@@ -222,6 +229,22 @@ void draw_statistics(const ViewerModel& model) {
         row("of which tracing", fmt::format("{:.1f} ms", 1e3 * status.last_first_frame_seconds));
         row("of which letting go", fmt::format("{:.1f} ms", 1e3 * status.last_cancel_seconds));
         ImGui::EndTable();
+    }
+    if (model.reference) {
+        ImGui::Separator();
+        if (ImGui::BeginTable("reference", 2)) {
+            row("reference", file_name(model.reference->path));
+            if (model.reference->mean_samples) {
+                const ImageDifference& d = model.reference->difference;
+                row("picture compared", fmt::format("at {:.4g} samples", *model.reference->mean_samples));
+                row("signed mean", fmt::format("{:+.3g}", d.signed_mean));
+                row("RMSE, relMSE", fmt::format("{:.3g}, {:.3g}", d.rmse, d.rel_mse));
+                row("FLIP", fmt::format("{:.4f}", d.flip));
+            } else {
+                row("its size", fmt::format("{} x {}", model.reference->extent.x, model.reference->extent.y));
+            }
+            ImGui::EndTable();
+        }
     }
     ImGui::Separator();
     draw_convergence(model);

@@ -22,8 +22,14 @@ std::optional<double> asked_error(const ViewerModel& model);
 ErrorWords words_of(const ViewerModel& model);
 // The sentence of the stated error and its plot over time, in the current window.
 void draw_convergence(const ViewerModel& model);
-// Says of a denoised picture that it is one.
-void draw_denoised_badge(const ViewerModel& model);
+// Says of a denoised picture, and of the reference, that it is one.
+void draw_badge(const ViewerModel& model);
+// "relMSE 0.0123": the number of that measure over all pixels.
+std::string metric_words(ReferenceMetric metric, const ImageDifference& difference);
+// What is compared, and with what, in the current window.
+void compare_section(ViewerModel& model, PanelEdits& edits);
+// How the sides of a comparison stand; nothing where there is none.
+std::string comparison_words(const ViewerModel& model);
 // The map beside the picture: where its line stands, in points (none: no map is shown), the line with its labels, and
 // the colours with their numbers.
 std::optional<float> wipe_x(const ViewerModel& model);

@@ -106,9 +106,10 @@ void display_section(ViewerModel& model, PanelEdits& edits) {
     edits.tone |= ImGui::SliderFloat("exposure", &model.display.tone.exposure_ev, -10, 10, "%+.2f EV");
     edits.tone |= choose("tone curve", model.display.tone.curve, curves);
     constexpr const char* maps[] = {"none", "error", "samples", "rays", "bounces"};
-    int map = model.map.shown ? 1 + static_cast<int>(model.map.map) : 0;
+    int map = model.map.shown && !model.map.metric ? 1 + static_cast<int>(model.map.map) : 0;
     if (choose("map", map, maps)) {
         model.map.shown = map > 0;
+        model.map.metric.reset();
         if (map > 0) model.map.map = static_cast<PixelMap>(map - 1);
         edits.map = true;
     }
@@ -175,6 +176,7 @@ PanelEdits draw_side_panel(ViewerModel& model) {
     light_section(model, edits);
     render_section(model, edits);
     display_section(model, edits);
+    compare_section(model, edits);
     scene_section(model, edits);
     validation_section(edits);
     ImGui::PopItemWidth();

@@ -30,7 +30,7 @@ Viewer::Viewer(const RenderOptions& options, const GlContext& context, const Vie
     model_.options = options;
     model_.display.tone = options.tone;
     model_.show_interface = viewer_options.interface;
-    model_.map = {options.map.has_value(), options.map.value_or(PixelMap::error), options.wipe};
+    model_.map = {options.map || options.metric, options.map.value_or(PixelMap::error), options.wipe, options.metric};
     for (const std::string& name : options.open) {
         if (name == "panels") model_.show_panels = true;
         if (name == "statistics") model_.show_statistics = true;
@@ -48,6 +48,12 @@ Viewer::Viewer(const RenderOptions& options, const GlContext& context, const Vie
     session_->show_maps(model_.map.shown);
     denoised_ = std::make_unique<DenoisedPreview>(*session_);
     model_.denoises = options.denoise;
+    if (!options.reference.empty()) load_reference(options.reference);
+    if (!options.compared.empty()) {
+        std::string unknown;
+        model_.comparison.settings = compared_settings(options.integrator, options.compared, &unknown);
+        show_comparison(true);
+    }
     if (!options.scene.empty()) start_load(options, false);
 }
 
@@ -298,9 +304,12 @@ void Viewer::submit() {
     request.bookmarked = is_bookmarked(model_.view);
     // A preview leaves the cores to the pictures that it waits for.
     if (before_preview_) request.max_spp = 1;
+    // Two settings that are compared have had the same time.
+    request.resumes = !model_.comparison.shown;
     remember_view();
     const uint64_t epoch = session_->submit(request);
     if (edited_s_) latency_.submitted(epoch, *std::exchange(edited_s_, std::nullopt));
+    submit_other();
     if (pose_epoch_ == 0) pose_epoch_ = epoch;
     if (hold_until_s_ < now_s()) hold_until_s_ = now_s() + first_frame_seconds;
 }
@@ -332,6 +341,7 @@ void Viewer::take_frame() {
 void Viewer::show_map(const MapView& view) {
     model_.map = view;
     session_->show_maps(view.shown);
+    if (view.shown && model_.comparison.shown) show_comparison(false);
     update_map();
 }
 
@@ -339,9 +349,11 @@ void Viewer::show_map(const MapView& view) {
 void Viewer::update_map() {
     redraws_ = std::max(redraws_, 1);
     model_.display.map.reset();
-    if (!model_.map.shown || frame_ == nullptr) return;
-    model_.map_scale = scale_of(model_.map.map, frame_->maps);
-    model_.display.map = DisplayedMap{model_.map.map, model_.map_scale, model_.map.wipe};
+    if (model_.map.shown && frame_ != nullptr) {
+        model_.map_scale = model_.map.metric ? scale_of(*model_.map.metric) : scale_of(model_.map.map, frame_->maps);
+        model_.display.map = DisplayedMap{model_.map.map, model_.map_scale, model_.map.wipe, model_.map.metric};
+    }
+    place_other_picture();
 }
 
 bool Viewer::map_is_missing() const {
@@ -369,6 +381,8 @@ bool Viewer::update() {
     if (!loader_.busy() && pose_is_wanted()) start_pose();
     if (dirty_) submit();
     take_frame();
+    take_other_frame();
+    update_reference();
 
     // Progress moves and notices go away by themselves.
     const double now = now_s();
@@ -397,7 +411,7 @@ void Viewer::draw() {
         if (model_.show_statistics) draw_statistics(model_);
         place_picture();
         draw_wipe(model_);
-        draw_denoised_badge(model_);
+        draw_badge(model_);
         if (model_.has_scene()) {
             const std::vector<ValidationReading> readings =
                 read_validation(model_.job.scene_path, *model_.job.world, model_.job.request.view, frame_);
@@ -433,6 +447,9 @@ void Viewer::apply(const PanelEdits& edits) {
     }
     if (edits.map) show_map(model_.map);
     if (edits.denoise) toggle_denoise();
+    if (edits.compare) toggle_comparison();
+    if (edits.compared) dirty_ = true;
+    if (edits.metric) show_map(model_.map);
     if (edits.frame_all) frame_everything();
     if (edits.camera) show_file_camera(*edits.camera);
     if (edits.scene) {
@@ -451,6 +468,8 @@ bool Viewer::finished() const {
     if (loader_.busy() || dirty_ || environment_dirty_ || pose_is_wanted()) return false;
     if (map_is_missing()) return false;
     if (model_.denoises && model_.has_scene() && !denoised_->is_last(model_.status)) return false;
+    if (reference_is_missing()) return false;
+    if (model_.comparison.shown && model_.has_scene() && !model_.comparison.status.done) return false;
     return !model_.has_scene() || model_.status.done;
 }
 
@@ -458,7 +477,8 @@ double Viewer::seconds_until_update() const {
     if (redraws_ > 0 || dirty_) return now_s() < hold_until_s_ ? 0.001 : 0;
     if (model_.playback.playing || (loader_.busy() && load_is_ == LoadKind::pose)) return 0.004;
     if (loader_.busy()) return 0.02;
-    if (map_is_missing() || denoised_->busy()) return 0.008;
+    if (map_is_missing() || denoised_->busy() || reference_.busy()) return 0.008;
+    if (model_.comparison.shown && !model_.comparison.status.done && !model_.status.paused) return 0.008;
     // The picture that someone waits for is taken when it comes.
     if (latency_.waits(model_.frame_epoch)) return 0.001;
     if (model_.has_scene() && !model_.status.done && !model_.status.paused) return 0.008;

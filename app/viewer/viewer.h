@@ -5,6 +5,7 @@
 
 #include "app/viewer/denoised_preview.h"
 #include "app/viewer/input.h"
+#include "app/viewer/reference_picture.h"
 #include "app/viewer/ui.h"
 #include "app/viewer/viewer_model.h"
 
@@ -115,6 +116,16 @@ class Viewer {
     void save_image(const std::string& path, const Frame& frame, bool denoised) const;
     void toggle_background();
     void toggle_pause();
+    void show_comparison(bool shown);
+    void toggle_comparison();
+    void submit_other();
+    void take_other_frame();
+    void load_reference(const std::string& path);
+    void step_metric();
+    void update_reference();
+    bool reference_is_missing() const;  // its reading is of another picture than the one that is shown
+    void place_other_picture();
+    void hold_reference(bool held);
     void show_map(const MapView& view);
     void update_map();
     bool map_is_missing() const;  // asked for, and not in the frame that is shown
@@ -149,6 +160,10 @@ class Viewer {
     Display display_;
     std::unique_ptr<Ui> ui_;
     std::unique_ptr<RenderSession> session_;
+    std::unique_ptr<RenderSession> other_session_;  // of the comparison
+    const Frame* other_frame_ = nullptr;
+    ReferencePicture reference_;
+    bool reference_is_uploaded_ = false;  // in place of other_frame_
     std::unique_ptr<DenoisedPreview> denoised_;
     uint64_t denoised_serial_ = 0;
     SceneLoader loader_;

@@ -23,6 +23,11 @@ bool is_scene_file(const std::string& path) {
     return extension == ".gltf" || extension == ".glb";
 }
 
+bool is_picture_file(const std::string& path) {
+    const std::string extension = extension_of(path);
+    return extension == ".hdr" || extension == ".exr" || extension == ".png";
+}
+
 bool is_environment_file(const std::string& path) {
     const std::string extension = extension_of(path);
     return extension == ".hdr" || extension == ".exr";
@@ -53,6 +58,7 @@ void Viewer::handle(const InputEvent& event) {
     } else if (const auto* scroll = std::get_if<Scrolled>(&event)) {
         if (!panel_had_mouse) handle_scroll(scroll->steps.y);
     } else if (const auto* key = std::get_if<KeyPressed>(&event)) {
+        if (key->key == Key::shift) hold_reference(key->pressed);
         if (key->pressed && (ui_ == nullptr || !ui_->wants_keyboard())) handle_key(*key);
     } else if (const auto* drop = std::get_if<FilesDropped>(&event)) {
         handle_drop(*drop);
@@ -189,6 +195,12 @@ void Viewer::handle_key(const KeyPressed& event) {
         case Key::d:
             toggle_denoise();
             return;
+        case Key::b:
+            toggle_comparison();
+            return;
+        case Key::m:
+            step_metric();
+            return;
         case Key::tab:
             model_.show_panels = !model_.show_panels;
             return;
@@ -227,9 +239,10 @@ void Viewer::handle_key(const KeyPressed& event) {
             return;
         case Key::v: {
             MapView view = model_.map;
-            view.shown = modifiers.shift || !view.shown;
-            if (modifiers.shift && model_.map.shown)
-                view.map = static_cast<PixelMap>((static_cast<int>(view.map) + 1) % 4);
+            view.shown = modifiers.shift || !view.shown || view.metric;
+            const bool was_shown = model_.map.shown && !view.metric;
+            view.metric.reset();
+            if (modifiers.shift && was_shown) view.map = static_cast<PixelMap>((static_cast<int>(view.map) + 1) % 4);
             show_map(view);
             return;
         }
@@ -303,10 +316,13 @@ void Viewer::change_exposure(float ev) {
 }
 
 void Viewer::toggle_pause() {
-    if (model_.status.paused) {
-        session_->resume();
-    } else {
-        session_->pause();
+    for (RenderSession* session : {session_.get(), other_session_.get()}) {
+        if (session == nullptr) continue;
+        if (model_.status.paused) {
+            session->resume();
+        } else {
+            session->pause();
+        }
     }
 }
 
@@ -339,6 +355,8 @@ void Viewer::handle_drop(const FilesDropped& event) {
     const std::string& path = event.paths.front();
     if (is_scene_file(path)) {
         open(path);
+    } else if (event.modifiers.shift && is_picture_file(path)) {
+        load_reference(path);
     } else if (is_environment_file(path)) {
         if (!model_.has_scene()) {
             model_.options.hdri = path;

@@ -5,6 +5,7 @@
 #include "app/gl/display.h"
 #include "app/render_job.h"
 #include "app/viewer/bookmarks.h"
+#include "app/viewer/compared_settings.h"
 #include "app/viewer/error_words.h"
 #include "app/viewer/latency.h"
 #include "app/viewer/map_view.h"
@@ -13,6 +14,26 @@
 #include "app/viewer/view_control.h"
 
 namespace candela {
+
+// The same view with other settings, to the right of the wipe; both have half of the cores.
+struct Comparison {
+    bool shown = false;
+    ComparedSettings settings;
+    // As of the last update.
+    SessionStatus status;
+    FilmStatistics film;
+    ErrorHistory history;
+    uint64_t serial = 0;  // of its frame
+};
+
+// A picture that is taken for the truth.
+struct ReferenceView {
+    std::string path;
+    Vec2u extent{0};
+    ImageDifference difference;          // of the picture from it
+    std::optional<double> mean_samples;  // of the picture when it was compared; none: not yet
+    bool held = false;                   // it is shown in place of the picture
+};
 
 struct ViewerModel {
     RenderOptions options;  // of the scene shown
@@ -27,6 +48,9 @@ struct ViewerModel {
 
     bool denoises = false;                 // the picture's noise is filtered away where that is ready
     std::optional<uint32_t> denoised_spp;  // of the denoised picture that is shown; none: the true one is
+
+    Comparison comparison;
+    std::optional<ReferenceView> reference;
 
     bool show_interface = true;  // false: only the picture
     bool show_panels = false;
@@ -62,6 +86,9 @@ struct PanelEdits {
     bool tone = false;         // only drawn anew
     bool map = false;          // another map, or none
     bool denoise = false;      // on or off
+    bool compare = false;      // on or off
+    bool compared = false;     // with other settings
+    bool metric = false;       // another measure of the distance to the reference
     bool toggle_pause = false;
     bool frame_time = false;  // when young pictures are shown
     std::optional<size_t> store_bookmark, recall_bookmark;

@@ -36,7 +36,9 @@ Key key_of(int glfw_key) {
                                              {GLFW_KEY_HOME, Key::home},
                                              {GLFW_KEY_END, Key::end},
                                              {GLFW_KEY_F5, Key::f5},
-                                             {GLFW_KEY_F12, Key::f12}};
+                                             {GLFW_KEY_F12, Key::f12},
+                                             {GLFW_KEY_LEFT_SHIFT, Key::shift},
+                                             {GLFW_KEY_RIGHT_SHIFT, Key::shift}};
     if (const auto found = named.find(glfw_key); found != named.end()) return found->second;
     if (glfw_key >= GLFW_KEY_A && glfw_key <= GLFW_KEY_Z) return static_cast<Key>('A' + glfw_key - GLFW_KEY_A);
     if (glfw_key >= GLFW_KEY_0 && glfw_key <= GLFW_KEY_9) return static_cast<Key>('0' + glfw_key - GLFW_KEY_0);

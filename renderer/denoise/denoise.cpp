@@ -114,7 +114,9 @@ void tame_fireflies(Planes& p, Plane& raw_variance) {
                     }
                 }
             }
-            const float bound = brightest.back(), here = luminance(x, y);
+            // What both replicates have seen is a lamp.
+            const float here = luminance(x, y), dimmer = here - std::sqrt(raw_variance(x, y));
+            const float bound = std::max(brightest.back(), dimmer);
             if (alike < 2 * firefly_rank || here <= bound) continue;
             const float scale = bound / here;
             p.luminance(x, y) *= scale;

@@ -18,6 +18,24 @@ struct ImageDifference {
 // a is the test, b the reference; both linear; sizes must match, else std::invalid_argument.
 ImageDifference compare_images(const ImageRgba32f& a, const ImageRgba32f& b);
 
+// The same where the FLIP errors are known.
+ImageDifference compare_images(const ImageRgba32f& a, const ImageRgba32f& b, const Image<float>& flip);
+
+// The channels of PictureComparison::maps.
+enum class ReferenceMetric : uint8_t {
+    signed_difference,  // of luminances, relative to the reference's and a tenth of its mean
+    relative_square,    // a pixel's part of rel_mse
+    flip
+};
+
+struct PictureComparison {
+    ImageDifference difference;
+    ImageRgba32f maps;
+};
+
+// How far a is from the reference b, as numbers and pixel by pixel; sizes must match, else std::invalid_argument.
+PictureComparison compare_with_maps(const ImageRgba32f& a, const ImageRgba32f& b);
+
 // Per-pixel FLIP error in [0,1].
 Image<float> flip_map(const ImageRgba32f& a, const ImageRgba32f& b);
 

@@ -18,6 +18,12 @@ Vec3 heat_color(float t) {
     return glm::clamp(out, 0.0f, 1.0f);
 }
 
+Vec3 difference_color(float t) {
+    const Vec3 middle(0.12f, 0.12f, 0.13f), below(0.25f, 0.60f, 1.0f), above(1.0f, 0.62f, 0.20f);
+    t = std::clamp(t, -1.0f, 1.0f);
+    return middle + std::sqrt(std::abs(t)) * ((t < 0 ? below : above) - middle);
+}
+
 float HeatScale::position(float value) const {
     if (logarithmic) return std::log(std::max(value, low) / low) / std::log(high / low);
     return (value - low) / (high - low);

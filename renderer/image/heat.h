@@ -10,6 +10,9 @@ namespace candela {
 // polynomial of Matt Zucker (public domain, shadertoy.com/view/WlfXRN).
 Vec3 heat_color(float t);
 
+// For differences: blue below 0 over dark grey at 0 to orange above, for t in [-1, 1]; beyond, the nearest of them.
+Vec3 difference_color(float t);
+
 // Which numbers the colours run over.
 struct HeatScale {
     float low = 0, high = 1;

@@ -87,7 +87,8 @@ void RenderSession::Impl::begin_epoch(RenderRequest next, uint64_t next_epoch, C
     error.clear();
     active = true;
     is_reprojected = false;
-    std::shared_ptr<ViewSamples> again = kept.take({request.world, request.view, request.settings});
+    std::shared_ptr<ViewSamples> again;
+    if (request.resumes) again = kept.take({request.world, request.view, request.settings});
     resumed_samples = again != nullptr ? again->complete_samples() : 0;
     if (again == nullptr) {
         start_anew();
@@ -116,7 +117,9 @@ void RenderSession::Impl::trace_slice() {
     const Slice slice = now->schedule->next(slice_tiles());
     std::vector<uint8_t> traced_tiles(slice.size());
     std::atomic<uint32_t> next{0};
+    const unsigned used = workers_used.load();
     const std::function<void(unsigned)> job = [&](unsigned worker) {
+        if (worker >= used) return;
         WorkerTally& tally = tallies[worker];
         const bool first = !first_frame_out && options.publish_frames;
         for (uint32_t t = next.fetch_add(1); t < slice.size(); t = next.fetch_add(1)) {

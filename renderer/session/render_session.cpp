@@ -227,6 +227,10 @@ void RenderSession::set_frame_seconds(double seconds) {
     impl_->frame_seconds.store(seconds);
 }
 
+void RenderSession::use_workers(unsigned count) {
+    impl_->workers_used.store(std::max(count, 1u));
+}
+
 void RenderSession::show_maps(bool wanted) {
     if (impl_->maps_wanted.exchange(wanted) == wanted || !wanted) return;
     {

@@ -21,6 +21,7 @@ struct RenderRequest {
     uint32_t max_spp = std::numeric_limits<uint32_t>::max();       // the session idles when every pixel has this many
     double max_seconds = std::numeric_limits<double>::infinity();  // of rendering
     double until_relative_error = 0;  // 0: off; looked at after 2, 4, 6, 8, 12, … 32, 48, … samples
+    bool resumes = true;              // with the samples that were kept of it; false: from the beginning
     bool bookmarked = false;          // other kept views are given up before this one
 };
 
@@ -77,6 +78,9 @@ class RenderSession {
     void show_maps(bool wanted);
     void pause();
     void resume();
+    // How many of its workers trace from now on (at least one; more than there are: all), so that another session has
+    // cores too.
+    void use_workers(unsigned count);
     SessionStatus status() const;
     // Blocks until the current epoch is done (or timeout_s passed); true when done.
     bool wait_until_done(double timeout_s = std::numeric_limits<double>::infinity());

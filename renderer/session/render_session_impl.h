@@ -93,6 +93,8 @@ struct RenderSession::Impl {
     std::atomic<uint64_t> work_token{0};
     // Whether a submit may interrupt: not before the epoch's first frame.
     std::atomic<bool> interruptible{true};
+    // How many workers trace.
+    std::atomic<unsigned> workers_used{std::numeric_limits<unsigned>::max()};
     // Whether frames come with maps.
     std::atomic<bool> maps_wanted{false};
     std::atomic<double> frame_seconds;

@@ -115,17 +115,28 @@ TEST_F(CommandLine, InfoSaysWhatTheFileHolds) {
 }
 
 TEST_F(CommandLine, WrongUsageIsTwo) {
-    for (const std::string& arguments :
-         {std::string("frobnicate"), std::string("render"), "render -o " + file("a.bmp"),
-          "render -o " + file("a.png") + " --spp x", "render -o " + file("a.png") + " --resolution 0x10",
-          "render -o " + file("a.png") + " --eye 1,2", "render -o " + file("a.png") + " --camera nobody",
-          "render -o " + file("a.png") + " --variant red", "render -o " + file("a.png") + " --scene 5",
-          std::string("info assets/cornell_box.glb --scene 5"),
-          std::string("info assets/cornell_box.glb --variant red"), "screenshot -o " + file("a.png") + " --scene 5",
-          "screenshot -o " + file("a.png") + " --map colour", "screenshot -o " + file("a.png") + " --wipe 2",
-          "screenshot -o " + file("a.png") + " --frame-time 1", "screenshot -o " + file("a.png") + " --limit-views -1",
-          "screenshot -o " + file("a.png") + " --open doors", "screenshot -o " + file("a.png") + " --variant red",
-          "render -o " + file("a.exr") + " --aov colour"}) {
+    for (const std::string& arguments : {std::string("frobnicate"),
+                                         std::string("render"),
+                                         "render -o " + file("a.bmp"),
+                                         "render -o " + file("a.png") + " --spp x",
+                                         "render -o " + file("a.png") + " --resolution 0x10",
+                                         "render -o " + file("a.png") + " --eye 1,2",
+                                         "render -o " + file("a.png") + " --camera nobody",
+                                         "render -o " + file("a.png") + " --variant red",
+                                         "render -o " + file("a.png") + " --scene 5",
+                                         std::string("info assets/cornell_box.glb --scene 5"),
+                                         std::string("info assets/cornell_box.glb --variant red"),
+                                         "screenshot -o " + file("a.png") + " --scene 5",
+                                         "screenshot -o " + file("a.png") + " --map colour",
+                                         "screenshot -o " + file("a.png") + " --wipe 2",
+                                         "screenshot -o " + file("a.png") + " --frame-time 1",
+                                         "screenshot -o " + file("a.png") + " --limit-views -1",
+                                         "screenshot -o " + file("a.png") + " --compare-with mist",
+                                         "screenshot -o " + file("a.png") + " --metric flip",
+                                         "screenshot -o " + file("a.png") + " --compare-with bsdf --map error",
+                                         "screenshot -o " + file("a.png") + " --open doors",
+                                         "screenshot -o " + file("a.png") + " --variant red",
+                                         "render -o " + file("a.exr") + " --aov colour"}) {
         const Outcome outcome = run(arguments);
         EXPECT_EQ(outcome.status, 2) << arguments << "\n" << outcome.text;
         EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;

@@ -125,6 +125,14 @@ TEST(Denoise, ALoneBrightSampleGoes) {
     }
 }
 
+TEST(Denoise, ALampAsSmallAsAPixelStays) {
+    Subject subject;
+    subject.irradiance(40, 30) = Vec3(300);
+    const ImageRgba32f denoised = denoise(subject.film(64), subject.guides());
+    EXPECT_GT(denoised(40, 30).g, 80) << "of 150";
+    EXPECT_NEAR(denoised(42, 30).g, 0.5f, 0.2f);
+}
+
 TEST(Denoise, IsTheSameOnOneThreadAndOnMany) {
     const Subject subject = checkered_room();
     const Film film = subject.film(6);

@@ -137,6 +137,38 @@ TEST(Display, MapsHaveTheColoursOfTheCpu) {
     }
 }
 
+TEST(Display, DifferencesAndTheOtherPictureStandInTheFramesPlace) {
+    const Frame frame = make_frame(100, 10);
+    const OsmesaContext context({100, 10});
+    Display display(context);
+    display.upload(frame);
+    ImageRgba32f differences(100, 10);
+    for (int y = 0; y < 10; ++y) {
+        for (int x = 0; x < 100; ++x)
+            differences(x, y) = Vec4(static_cast<float>(x - 50) / 50, 0, 0, 0);
+    }
+    display.upload_differences(differences);
+    DisplaySettings settings{{}, false, DisplayedMap{PixelMap::error, {-0.5f, 0.5f, false}, 0}};
+    settings.map->metric = ReferenceMetric::signed_difference;
+    display.draw(settings);
+    const ImageRgba8 map = read_back(context);
+    for (int x = 0; x < 100; ++x) {
+        const Vec3 exact = 255.0f * difference_color(differences(x, 5).x / 0.5f);
+        for (int c = 0; c < 3; ++c)
+            ASSERT_NEAR(map(x, 5)[c], exact[c], 0.5f + 0.1f) << x;
+    }
+
+    settings = {{0, ToneCurve::linear}, false};
+    display.draw(settings);
+    const ImageRgba8 plain = read_back(context);
+    display.upload_other(ImageRgba32f(100, 10, Vec4(0, 1, 0, 1)));
+    settings.other = 0.4f;
+    display.draw(settings);
+    const ImageRgba8 both = read_back(context);
+    for (int x = 0; x < 100; ++x)
+        ASSERT_EQ(both(x, 5), x < 40 ? plain(x, 5) : Rgba8(0, 255, 0, 255)) << x;
+}
+
 TEST(Display, TheWipeParts) {
     const Frame frame = mapped_frame(100, 10);
     const OsmesaContext context({100, 10});

@@ -58,5 +58,25 @@ TEST(Compare, FlipOfBlackAndWhiteIsNearOneAndSymmetric) {
     EXPECT_LT(compare_images(black, grey).flip, compare_images(black, white).flip);
 }
 
+TEST(Compare, MapsAreThePixelsOfTheNumbers) {
+    ImageRgba32f a(20, 10, Vec4(0.5f, 0.25f, 0.125f, 1)), b = a;
+    b(3, 4) = Vec4(1, 1, 1, 1);
+    a(7, 2) = Vec4(1, 1, 1, 1);
+    const PictureComparison compared = compare_with_maps(a, b);
+    const ImageDifference numbers = compare_images(a, b);
+    EXPECT_EQ(compared.difference.rel_mse, numbers.rel_mse);
+    EXPECT_EQ(compared.difference.flip, numbers.flip);
+    double square = 0, flip = 0;
+    for (const Vec4& pixel : compared.maps.pixels()) {
+        square += static_cast<double>(pixel[static_cast<int>(ReferenceMetric::relative_square)]) / 200;
+        flip += static_cast<double>(pixel[static_cast<int>(ReferenceMetric::flip)]) / 200;
+    }
+    EXPECT_NEAR(square, numbers.rel_mse, 1e-6 * numbers.rel_mse);
+    EXPECT_NEAR(flip, numbers.flip, 1e-6);
+    EXPECT_LT(compared.maps(3, 4).x, -0.5f) << "too dark";
+    EXPECT_GT(compared.maps(7, 2).x, 0.5f) << "too bright";
+    EXPECT_EQ(compared.maps(0, 0).x, 0.0f);
+}
+
 }  // namespace
 }  // namespace candela

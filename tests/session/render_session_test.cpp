@@ -88,6 +88,16 @@ TEST(RenderSession, PausingChangesNothing) {
     EXPECT_TRUE(same_bits(reference, finished(session)));
 }
 
+TEST(RenderSession, FewerWorkersMakeTheSamePicture) {
+    const RenderRequest request = request_from(1, 5);
+    SessionOptions options;
+    options.threads = 3;
+    RenderSession session(options);
+    session.use_workers(0);
+    session.submit(request);
+    EXPECT_TRUE(same_bits(finished(session), render_alone(request, 3, true)));
+}
+
 TEST(RenderSession, StopKeepsWhatThereIs) {
     RenderSession session({.threads = 2, .publish_frames = false});
     session.submit(request_from(0, 1u << 30));
