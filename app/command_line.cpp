@@ -222,6 +222,8 @@ void add_viewer_options(CLI::App& command, RenderOptions& options, RawRenderOpti
     take_one_of(metrics, command.add_option("--metric", options.metric,
                                             "beside the picture, how far each pixel is from the reference"));
     command.add_flag("--denoise", options.denoise, "shows the picture without its noise: a preview, not the truth");
+    command.add_flag("--light-groups", options.light_groups,
+                     "keeps the light of each lamp apart from the start, as opening the Lights panel does");
     command
         .add_option("--frame-time", options.frame_time_ms,
                     "milliseconds to a first picture and between young ones, which begin as coarse as that takes (33)")

@@ -57,6 +57,7 @@ struct RenderOptions {
     float wipe = 0.5f;                      // where it begins: 0 at the left edge, 1 at the right
     std::vector<std::string> open;          // panels of a screenshot
     double frame_time_ms = 1000.0 / 30;     // how often a young picture is shown anew, and how fine it begins
+    bool light_groups = false;              // samples are kept apart by their lights
     uint64_t limit_views_bytes = uint64_t{512} << 20;  // for the samples of views that were left
     std::string stats_file;                            // "-": standard output
     std::string output;

@@ -90,6 +90,7 @@ void draw_status_line(const ViewerModel& model) {
         line.item(file_name(model.job.scene_path));
         line.item(fmt::format("{} spp", model.status.spp));
         line.item(clock_text(model.status.render_seconds));
+        if (!model.lights.words().empty()) line.item("lights re-weighted", &accent);
         if (model.is_reprojected) line.item("reprojected", &accent);
         if (const char* state = state_words(model)) line.item(state, &accent);
         // The speed stays, and what matters more than it.

@@ -41,6 +41,8 @@ void draw_statistics(const ViewerModel& model);
 void draw_validation(const std::vector<ValidationReading>& readings);
 // Bookmarks and views that were left: a section of the side panel.
 void views_section(ViewerModel& model, PanelEdits& edits);
+// Lights that are re-weighted: a section of the side panel.
+void lights_section(const ViewerModel& model, PanelEdits& edits);
 // Camera, light, rendering, display and scene, at the right.
 PanelEdits draw_side_panel(ViewerModel& model);
 

@@ -174,6 +174,7 @@ PanelEdits draw_side_panel(ViewerModel& model) {
     camera_section(model, edits);
     views_section(model, edits);
     light_section(model, edits);
+    lights_section(model, edits);
     render_section(model, edits);
     display_section(model, edits);
     compare_section(model, edits);

@@ -54,6 +54,7 @@ Viewer::Viewer(const RenderOptions& options, const GlContext& context, const Vie
         model_.comparison.settings = compared_settings(options.integrator, options.compared, &unknown);
         show_comparison(true);
     }
+    model_.lights.on = options.light_groups;
     if (!options.scene.empty()) start_load(options, false);
 }
 
@@ -306,6 +307,8 @@ void Viewer::submit() {
     if (before_preview_) request.max_spp = 1;
     // Two settings that are compared have had the same time.
     request.resumes = !model_.comparison.shown;
+    weigh_lights();
+    request.light_groups = model_.lights.on ? model_.lights.groups : nullptr;
     remember_view();
     const uint64_t epoch = session_->submit(request);
     if (edited_s_) latency_.submitted(epoch, *std::exchange(edited_s_, std::nullopt));
@@ -432,6 +435,14 @@ void Viewer::draw() {
 
 void Viewer::apply(const PanelEdits& edits) {
     if (edits.view || edits.settings) edit();
+    if (edits.light_groups) {
+        model_.lights.on = true;
+        edit();
+    }
+    if (edits.light_weights) {
+        model_.lights.weights = *edits.light_weights;
+        weigh_lights();
+    }
     if (edits.frame_time) session_->set_frame_seconds(1e-3 * model_.options.frame_time_ms);
     if (edits.store_bookmark) store_bookmark(*edits.store_bookmark);
     if (edits.recall_bookmark) recall_bookmark(*edits.recall_bookmark);
@@ -466,7 +477,7 @@ void Viewer::apply(const PanelEdits& edits) {
 
 bool Viewer::finished() const {
     if (loader_.busy() || dirty_ || environment_dirty_ || pose_is_wanted()) return false;
-    if (map_is_missing()) return false;
+    if (map_is_missing() || weighing_is_missing()) return false;
     if (model_.denoises && model_.has_scene() && !denoised_->is_last(model_.status)) return false;
     if (reference_is_missing()) return false;
     if (model_.comparison.shown && model_.has_scene() && !model_.comparison.status.done) return false;
@@ -477,7 +488,7 @@ double Viewer::seconds_until_update() const {
     if (redraws_ > 0 || dirty_) return now_s() < hold_until_s_ ? 0.001 : 0;
     if (model_.playback.playing || (loader_.busy() && load_is_ == LoadKind::pose)) return 0.004;
     if (loader_.busy()) return 0.02;
-    if (map_is_missing() || denoised_->busy() || reference_.busy()) return 0.008;
+    if (map_is_missing() || weighing_is_missing() || denoised_->busy() || reference_.busy()) return 0.008;
     if (model_.comparison.shown && !model_.comparison.status.done && !model_.status.paused) return 0.008;
     // The picture that someone waits for is taken when it comes.
     if (latency_.waits(model_.frame_epoch)) return 0.001;

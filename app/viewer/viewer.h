@@ -128,7 +128,9 @@ class Viewer {
     void hold_reference(bool held);
     void show_map(const MapView& view);
     void update_map();
-    bool map_is_missing() const;  // asked for, and not in the frame that is shown
+    void weigh_lights();
+    bool weighing_is_missing() const;  // the lights of the frame that is shown are not those asked for
+    bool map_is_missing() const;       // asked for, and not in the frame that is shown
     void place_picture();
     bool wipe_is_at_cursor() const;
     void set_focus_at_cursor();
@@ -192,6 +194,8 @@ class Viewer {
     double last_tick_s_ = 0;
     uint64_t pose_epoch_ = 0;  // of the first picture of the pose that is shown; 0: not submitted yet
 
+    uint64_t weighing_ = 0;                       // of the lights, as the session counts
+    std::shared_ptr<const World> grouped_world_;  // whose lights model_.lights has
     LatencyMeter latency_;
     std::optional<double> edited_s_;  // the first input that has not been submitted
     ViewHistory view_history_;

@@ -8,6 +8,7 @@
 #include "app/viewer/compared_settings.h"
 #include "app/viewer/error_words.h"
 #include "app/viewer/latency.h"
+#include "app/viewer/light_mixer.h"
 #include "app/viewer/map_view.h"
 #include "app/viewer/playback.h"
 #include "app/viewer/scene_loader.h"
@@ -41,6 +42,7 @@ struct ViewerModel {
     OrbitView view;
     DisplaySettings display;
     Bookmarks bookmarks;
+    LightMixer lights;
     Playback playback;
     MapView map;
     HeatScale map_scale;                        // of the map that is shown
@@ -90,7 +92,9 @@ struct PanelEdits {
     bool compared = false;     // with other settings
     bool metric = false;       // another measure of the distance to the reference
     bool toggle_pause = false;
-    bool frame_time = false;  // when young pictures are shown
+    bool light_groups = false;                              // samples are to be kept apart by their lights: restarts
+    bool frame_time = false;                                // when young pictures are shown
+    std::optional<std::vector<LightWeight>> light_weights;  // only weighed anew
     std::optional<size_t> store_bookmark, recall_bookmark;
     int step_view = 0;  // -1: back, 1: on
     bool frame_all = false;

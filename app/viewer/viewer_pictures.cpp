@@ -31,6 +31,8 @@ const DenoisedPicture* Viewer::shown_denoised() const {
 void Viewer::save_image(const std::string& path, const Frame& frame, bool denoised) const {
     const bool png = extension_of(path) == ".png";
     std::map<std::string, std::string> header = picture_header(model_.options.command, model_.job.request);
+    const std::string lights = model_.lights.words();
+    if (!lights.empty()) header["lights"] = lights;
     if (denoised) header["denoised"] = "yes: not the truth";
     save_picture(path, frame, png ? model_.display.tone : ToneSettings{}, model_.job.request.settings, header);
 }
@@ -70,8 +72,9 @@ void Viewer::save_next(bool denoised) {
                 save(name + extension);
             }
         }
+        const std::string lights = model_.lights.words();
         const bool offers = !denoised && shown_denoised() != nullptr;
-        notify(fmt::format("saved {0}.png and {0}.exr{1}", name,
+        notify(fmt::format("saved {0}.png and {0}.exr{1}{2}", name, lights.empty() ? "" : " with " + lights,
                            offers ? ": the true picture; Ctrl+Shift+S saves the denoised one" : ""));
     } catch (const CommandError& error) {
         notify(error.what(), true);

@@ -68,6 +68,21 @@ void Viewer::forget_views() {
     submitted_view_ = model_.view;
 }
 
+// The groups of the world that is shown, and how bright each of them is.
+void Viewer::weigh_lights() {
+    if (model_.lights.on && grouped_world_ != model_.job.world) {
+        grouped_world_ = model_.job.world;
+        model_.lights.take(make_light_groups(*grouped_world_));
+    }
+    weighing_ = session_->weigh_lights(model_.lights.values());
+    if (other_session_ != nullptr) other_session_->weigh_lights(model_.lights.values());
+    redraws_ = std::max(redraws_, 2);
+}
+
+bool Viewer::weighing_is_missing() const {
+    return frame_ != nullptr && frame_->weighing != weighing_ && model_.status.error.empty();
+}
+
 void Viewer::presented() {
     latency_.shown(model_.frame_epoch, now_s());
     model_.latency = latency_.summary();

@@ -39,9 +39,10 @@ struct Frame {
     bool is_reprojected = false;
     ImageRgba32f maps;  // one PixelMap in each channel; empty unless the session was asked for it
     const ImageRgba32f& shown() const { return is_reprojected ? reprojected : image; }
-    uint64_t epoch = 0;   // which submit this belongs to
-    uint64_t serial = 0;  // counts the frames of a session from 1: two frames with one serial are the same picture
-    uint32_t stride = 1;  // 1 once every pixel has a sample of its own
+    uint64_t epoch = 0;     // which submit this belongs to
+    uint64_t weighing = 0;  // which RenderSession::weigh_lights its lights are of; 0: as they are
+    uint64_t serial = 0;    // counts the frames of a session from 1: two frames with one serial are the same picture
+    uint32_t stride = 1;    // 1 once every pixel has a sample of its own
     FilmStatistics statistics;
     ErrorHistory history;  // of this epoch
     double render_seconds = 0;

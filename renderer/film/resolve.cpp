@@ -3,7 +3,8 @@
 
 namespace candela {
 
-void resolve_rows(const Film& film, uint32_t row_begin, uint32_t row_end, Frame& frame) noexcept {
+void resolve_rows(const Film& film, uint32_t row_begin, uint32_t row_end, Frame& frame,
+                  std::span<const Vec3> weights) noexcept {
     constexpr uint32_t coarsest = 64;
     const uint32_t width = film.extent().x;
     for (uint32_t y = row_begin; y < row_end; ++y) {
@@ -13,9 +14,7 @@ void resolve_rows(const Film& film, uint32_t row_begin, uint32_t row_end, Frame&
             for (uint32_t stride = 2; pixel->count == 0 && stride <= coarsest; stride *= 2) {
                 pixel = &film.at({x & ~(stride - 1), y & ~(stride - 1)});
             }
-            const float scale = pixel->count > 0 ? 1.0f / static_cast<float>(pixel->count) : 0.0f;
-            frame.image(static_cast<int>(x), static_cast<int>(y)) =
-                Vec4(pixel->radiance_sum * scale, pixel->alpha_sum * scale);
+            frame.image(static_cast<int>(x), static_cast<int>(y)) = film.mean(*pixel, weights);
         }
     }
 }

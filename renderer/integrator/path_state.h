@@ -36,6 +36,8 @@ struct ShadowRequest {
     Ray ray;  // up to just before the light
     Vec3 contribution{0};
     bool active = false;
+    // Which light: a placed primitive or a punctual light; neither: the environment.
+    uint32_t light_surface = invalid_index, punctual = invalid_index;
 };
 
 }  // namespace candela

@@ -188,6 +188,8 @@ ShadowRequest plan_connection(const World& world, const IntegratorSettings& sett
     gather(settings, path, contribution, path.depth + 1, request.contribution);
     request.ray = shadow_ray(world, point, light);
     request.active = true;
+    request.light_surface = light.surface;
+    request.punctual = light.punctual;
     return request;
 }
 

@@ -88,8 +88,10 @@ float environment_share(const Lights& lights, LightCoverage coverage) {
     return lights.environment_probability[static_cast<size_t>(coverage)];
 }
 
-LightSample sample_punctual(const PlacedLight& light, const Vec3& from, float probability) {
+LightSample sample_punctual(const Lights& lights, uint32_t index, const Vec3& from, float probability) {
     LightSample out;
+    const PlacedLight& light = lights.punctual[index];
+    out.punctual = index;
     out.is_delta = true;
     if (light.kind == LightKind::directional) {
         out.wi = -light.direction;
@@ -238,7 +240,7 @@ LightSample sample_light(const Lights& lights, const LightReceiver& receiver, Li
         const AliasTable::Choice choice =
             lights.directional.sample(std::min(u_rest / p_directional, one_minus_epsilon));
         const float probability = choice.probability * (1.0f - p_environment) * p_directional;
-        return probability > 0.0f ? sample_punctual(lights.punctual[choice.index], receiver.position, probability)
+        return probability > 0.0f ? sample_punctual(lights, choice.index, receiver.position, probability)
                                   : LightSample{};
     }
     if (!lights.placed) return {};
@@ -247,7 +249,7 @@ LightSample sample_light(const Lights& lights, const LightReceiver& receiver, Li
     const float probability = choice.probability * (1.0f - p_environment) * (1.0f - p_directional);
     if (!(probability > 0.0f)) return {};
     if (choice.index < lights.punctual.size()) {
-        return sample_punctual(lights.punctual[choice.index], receiver.position, probability);
+        return sample_punctual(lights, choice.index, receiver.position, probability);
     }
     const auto emissive = static_cast<uint32_t>(choice.index - lights.punctual.size());
     LightSample out = sample_triangle_light(lights.triangles[emissive], receiver.position, u, probability);

@@ -60,8 +60,9 @@ struct LightSample {
     bool is_delta = false;
     uint32_t surface = 0xffffffffu;  // set for emissive triangles
     uint32_t triangle = 0;
-    float u = 0, v = 0;     // in the whole triangle
-    uint32_t emissive = 0;  // index in Lights::triangles
+    float u = 0, v = 0;               // in the whole triangle
+    uint32_t emissive = 0;            // index in Lights::triangles
+    uint32_t punctual = 0xffffffffu;  // index in Lights::punctual, set for those
 };
 
 struct Lights {

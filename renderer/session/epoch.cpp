@@ -29,7 +29,7 @@ void RenderSession::Impl::prepare_spare() {
     if (spare != nullptr || !(worth_keeping() || own_anchor.samples != nullptr)) return;
     try {
         auto next = std::make_shared<ViewSamples>();
-        next->film = Film(now->film.extent());
+        next->film = Film(now->film.extent(), now->film.light_groups());
         spare = std::move(next);
     } catch (const std::bad_alloc&) {
         spare = nullptr;
@@ -39,7 +39,7 @@ void RenderSession::Impl::prepare_spare() {
 void RenderSession::Impl::leave_view() {
     const bool is_anchor = own_anchor.samples != nullptr && own_anchor.guided_rows == request.view.extent.y;
     const bool is_kept = worth_keeping();
-    if (is_kept) kept.keep({request.world, request.view, request.settings}, now, left_bookmarked);
+    if (is_kept) kept.keep({request.world, request.view, request.settings, request.light_groups}, now, left_bookmarked);
     if (is_anchor) anchor = std::move(own_anchor);
     own_anchor = {};
     if (!is_kept && !is_anchor && now != anchor.samples) return;
@@ -54,11 +54,12 @@ void RenderSession::Impl::start_anew() {
     now->history.clear();
     now->measured_at_spp = 0;
     try {
-        if (now->film.extent() == request.view.extent) {
+        const size_t groups = request.light_groups ? request.light_groups->size() : 0;
+        if (now->film.extent() == request.view.extent && now->film.light_groups() == groups) {
             run_rows([&](uint32_t begin, uint32_t end) { now->film.clear_rows(begin, end); });
         } else {
             now->film = Film();
-            now->film = Film(request.view.extent);
+            now->film = Film(request.view.extent, groups);
         }
         // The cost of a path in the lattices before foretells this one's; in passes it is a little less.
         const double cost = first_seconds_per_path > 0 ? first_seconds_per_path : seconds_per_path;
@@ -88,7 +89,7 @@ void RenderSession::Impl::begin_epoch(RenderRequest next, uint64_t next_epoch, C
     active = true;
     is_reprojected = false;
     std::shared_ptr<ViewSamples> again;
-    if (request.resumes) again = kept.take({request.world, request.view, request.settings});
+    if (request.resumes) again = kept.take({request.world, request.view, request.settings, request.light_groups});
     resumed_samples = again != nullptr ? again->complete_samples() : 0;
     if (again == nullptr) {
         start_anew();
@@ -113,6 +114,17 @@ uint32_t RenderSession::Impl::slice_tiles() const {
     return static_cast<uint32_t>(std::clamp(tiles, 1.0 * pool.size(), 1e6));
 }
 
+// The samples of one tile; false once a newer request came.
+bool RenderSession::Impl::trace_tile(WorkerTally& tally, const std::atomic<uint64_t>* cancel) {
+    if (request.light_groups == nullptr) {
+        return options.trace(*request.world, request.view, request.settings, tally.samples, tally.radiance, tally.rays,
+                             cancel, slice_token);
+    }
+    tally.by_light.resize(max_batch * request.light_groups->size());
+    return trace_grouped(*request.world, request.view, request.settings, *request.light_groups, tally.samples,
+                         tally.radiance, tally.by_light, tally.rays, cancel, slice_token);
+}
+
 void RenderSession::Impl::trace_slice() {
     const Slice slice = now->schedule->next(slice_tiles());
     std::vector<uint8_t> traced_tiles(slice.size());
@@ -126,15 +138,14 @@ void RenderSession::Impl::trace_slice() {
             list_tile(slice.pass, request.view.extent, slice.tile(t), tally.samples);
             // The first coarse pass is finished whatever happens, so that dragging always shows pictures.
             const std::atomic<uint64_t>* cancel = first ? nullptr : &work_token;
-            if (!options.trace(*request.world, request.view, request.settings, tally.samples, tally.radiance,
-                               tally.rays, cancel, slice_token)) {
-                return;
-            }
+            if (!trace_tile(tally, cancel)) return;
+            const size_t groups = now->film.light_groups();
             for (size_t i = 0; i < tally.samples.size(); ++i) {
                 const PixelSample& sample = tally.samples[i];
                 const RadianceSample& traced = tally.radiance[i];
                 now->film.add({sample.x, sample.y}, sample.index, traced.radiance, traced.alpha,
-                              {traced.segments, traced.shadow_rays});
+                              {traced.segments, traced.shadow_rays},
+                              std::span<const Vec3>(tally.by_light).subspan(i * groups, groups));
             }
             tally.paths += tally.samples.size();
             traced_tiles[t] = 1;

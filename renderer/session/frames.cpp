@@ -37,6 +37,7 @@ void RenderSession::Impl::trace_guides() {
         own_anchor.world = request.world;
         own_anchor.view = request.view;
         own_anchor.settings = request.settings;
+        own_anchor.light_groups = request.light_groups;
     }
     const uint32_t height = request.view.extent.y;
     if (own_anchor.guided_rows == height) return;
@@ -68,7 +69,7 @@ void RenderSession::Impl::reproject() {
         pool.run(job);
         const auto width = static_cast<int>(extent.x), height = static_cast<int>(extent.y);
         if (reprojected.width() != width || reprojected.height() != height) reprojected = ImageRgba32f(width, height);
-        const ReprojectionSource source{&anchor.samples->film, &anchor.guides, anchor.view};
+        const ReprojectionSource source{&anchor.samples->film, &anchor.guides, anchor.view, weights};
         run_rows([&](uint32_t begin, uint32_t end) {
             reproject_rows(source, request.view, lattice, begin, end, reprojected);
         });
@@ -85,7 +86,7 @@ void RenderSession::Impl::publish() {
     const auto width = static_cast<int>(now->film.extent().x);
     const auto height = static_cast<int>(now->film.extent().y);
     if (frame.image.width() != width || frame.image.height() != height) frame.image = ImageRgba32f(width, height);
-    run_rows([&](uint32_t begin, uint32_t end) { resolve_rows(now->film, begin, end, frame); });
+    run_rows([&](uint32_t begin, uint32_t end) { resolve_rows(now->film, begin, end, frame, weights); });
     if (!maps_wanted.load()) {
         frame.maps = {};
     } else {
@@ -105,6 +106,7 @@ void RenderSession::Impl::publish() {
     } else if (!active) {
         frame.reprojected = {};
     }
+    frame.weighing = weighing;
     frame.epoch = epoch;
     frame.serial = ++frames_published;
     frame.stride = now->schedule ? now->schedule->current_stride() : 1;

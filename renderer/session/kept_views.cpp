@@ -7,7 +7,7 @@ namespace candela {
 
 bool ViewKey::operator==(const ViewKey& other) const {
     const bool same_world = !world.owner_before(other.world) && !other.world.owner_before(world);
-    return same_world && view == other.view && settings == other.settings;
+    return same_world && view == other.view && settings == other.settings && light_groups == other.light_groups;
 }
 
 void KeptViews::keep(const ViewKey& key, std::shared_ptr<ViewSamples> samples, bool bookmarked) {

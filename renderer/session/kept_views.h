@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "renderer/film/film.h"
-#include "renderer/integrator/integrator.h"
+#include "renderer/integrator/light_groups.h"
 #include "renderer/session/schedule.h"
 
 namespace candela {
@@ -22,7 +22,7 @@ struct ViewSamples {
     double render_seconds = 0;
     RayCounts rays;
 
-    uint64_t bytes() const { return film.pixels().size_bytes(); }
+    uint64_t bytes() const { return film.bytes(); }
     uint32_t complete_samples() const { return schedule ? schedule->complete_samples() : 0; }
 };
 
@@ -31,6 +31,7 @@ struct ViewKey {
     std::weak_ptr<const World> world;
     View view;
     IntegratorSettings settings;
+    std::shared_ptr<const LightGroups> light_groups = nullptr;
 
     bool operator==(const ViewKey& other) const;
 };

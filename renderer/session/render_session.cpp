@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/session/render_session.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -88,7 +89,7 @@ void RenderSession::Impl::control_loop() {
             std::unique_lock lock(mutex);
             const bool guides_left = own_anchor.samples != nullptr && own_anchor.guided_rows < own_anchor.view.extent.y;
             if (snapshots_made != snapshots_asked) {
-                snapshot = now->film;
+                snapshot = now->film.reweighted(weights);
                 snapshot_epoch = epoch;
                 snapshots_made = snapshots_asked;
                 reported.notify_all();
@@ -102,6 +103,8 @@ void RenderSession::Impl::control_loop() {
             if (snapshots_made != snapshots_asked) continue;
             only_guides = !mailbox && !republish_asked && (!active || paused);
             republish = std::exchange(republish_asked, false);
+            weights = weights_asked;
+            weighing = weighings_asked;
             // A submit from now on makes workers let go of the slice that follows.
             slice_token = work_token.load();
             if (mailbox && (!active || interruptible.load())) {
@@ -121,6 +124,7 @@ void RenderSession::Impl::control_loop() {
             begin_epoch(std::move(*next), next_epoch, submitted);
             update_status();
         } else if (republish) {
+            if (is_reprojected) reproject();
             if (first_frame_out) publish();
             continue;
         }
@@ -229,6 +233,22 @@ void RenderSession::set_frame_seconds(double seconds) {
 
 void RenderSession::use_workers(unsigned count) {
     impl_->workers_used.store(std::max(count, 1u));
+}
+
+uint64_t RenderSession::weigh_lights(std::vector<Vec3> weights) {
+    uint64_t weighing = 0;
+    {
+        const std::lock_guard lock(impl_->mutex);
+        // Lights as they are need no sums over groups, and are shown to the bit.
+        if (std::all_of(weights.begin(), weights.end(), [](const Vec3& weight) { return weight == Vec3(1); }))
+            weights.clear();
+        if (weights == impl_->weights_asked) return impl_->weighings_asked;
+        weighing = ++impl_->weighings_asked;
+        impl_->weights_asked = std::move(weights);
+        impl_->republish_asked = true;
+    }
+    impl_->wake.notify_all();
+    return weighing;
 }
 
 void RenderSession::show_maps(bool wanted) {

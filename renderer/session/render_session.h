@@ -9,7 +9,7 @@
 
 #include "renderer/film/film.h"
 #include "renderer/film/frame.h"
-#include "renderer/integrator/integrator.h"
+#include "renderer/integrator/light_groups.h"
 
 namespace candela {
 
@@ -18,6 +18,8 @@ struct RenderRequest {
     std::shared_ptr<const World> world;
     View view;
     IntegratorSettings settings;
+    // Of the world: samples are kept apart by them; null: they are not.
+    std::shared_ptr<const LightGroups> light_groups = nullptr;
     uint32_t max_spp = std::numeric_limits<uint32_t>::max();       // the session idles when every pixel has this many
     double max_seconds = std::numeric_limits<double>::infinity();  // of rendering
     double until_relative_error = 0;  // 0: off; looked at after 2, 4, 6, 8, 12, … 32, 48, … samples
@@ -74,6 +76,10 @@ class RenderSession {
     // What was submitted last counts as bookmarked.
     void bookmark_view();
     void set_frame_seconds(double seconds);
+    // How bright each light group is shown, without tracing anything anew: frames and snapshots are of these lights,
+    // their statistics of the lights as they are. Empty, or of another number than there are groups: as they are.
+    // Returns the number that frames of these lights carry.
+    uint64_t weigh_lights(std::vector<Vec3> weights);
     // Whether frames come with maps; the newest one is published again with them.
     void show_maps(bool wanted);
     void pause();

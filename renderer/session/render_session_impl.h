@@ -29,6 +29,7 @@ struct alignas(64) WorkerTally {
     uint64_t paths = 0;
     std::vector<PixelSample> samples;
     std::array<RadianceSample, max_batch> radiance;
+    std::vector<Vec3> by_light;
 };
 
 // A view that later ones may be reprojected from.
@@ -37,14 +38,15 @@ struct Anchor {
     std::weak_ptr<const World> world;
     View view;
     IntegratorSettings settings;
+    std::shared_ptr<const LightGroups> light_groups;
     GuideLattice guides;  // of every pixel
     uint32_t guided_rows = 0;
 
     bool serves(const RenderRequest& request) const {
         View moved = request.view;
         moved.camera = view.camera;
-        return samples != nullptr && world.lock() == request.world && settings == request.settings && moved == view &&
-               guided_rows == view.extent.y;
+        return samples != nullptr && world.lock() == request.world && settings == request.settings &&
+               light_groups == request.light_groups && moved == view && guided_rows == view.extent.y;
     }
 };
 
@@ -59,6 +61,7 @@ struct RenderSession::Impl {
     void prepare_spare();
     void start_anew();
     void trace_slice();
+    bool trace_tile(WorkerTally& tally, const std::atomic<uint64_t>* cancel);
     void trace_guides();
     void reproject();
     bool finished_by_limits();
@@ -81,6 +84,8 @@ struct RenderSession::Impl {
     uint64_t newest_epoch = 0;
     bool paused = false, stop_asked = false, quit = false;
     bool republish_asked = false;
+    std::vector<Vec3> weights_asked;
+    uint64_t weighings_asked = 0;
     bool bookmarked = false;  // what is rendered now
     uint32_t snapshots_asked = 0, snapshots_made = 0;
     Film snapshot;
@@ -102,6 +107,8 @@ struct RenderSession::Impl {
     // Owned by the control thread.
     RenderRequest request;
     uint64_t epoch = 0;
+    std::vector<Vec3> weights;  // of light groups
+    uint64_t weighing = 0;
     std::shared_ptr<ViewSamples> now = std::make_shared<ViewSamples>();
     Anchor anchor, own_anchor;  // the view before, and what is rendered now as one
     ImageRgba32f reprojected;   // of the anchor, for this epoch

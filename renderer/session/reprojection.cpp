@@ -196,8 +196,7 @@ void reproject_rows(const ReprojectionSource& source, const View& view, const Gu
                 Vec4 color(std::numeric_limits<float>::quiet_NaN(), 0, 0, 0);
                 if (found) {
                     const FilmPixel& sums = source.film->at(*found);
-                    if (sums.count > 0)
-                        color = Vec4(sums.radiance_sum, sums.alpha_sum) / static_cast<float>(sums.count);
+                    if (sums.count > 0) color = source.film->mean(sums, source.weights);
                 } else {
                     before.reset();
                 }

@@ -56,6 +56,7 @@ struct ReprojectionSource {
     const Film* film = nullptr;
     const GuideLattice* guides = nullptr;
     View view;
+    std::span<const Vec3> weights = {};  // of the film's light groups
 };
 
 // Fills rows [row_begin, row_end) of out, which has the extent of both views: the source's mean radiance and alpha

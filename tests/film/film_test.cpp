@@ -161,5 +161,28 @@ TEST(Maps, TheErrorsMeanIsThatOfThePictureAndCostsAreCounted) {
     EXPECT_LT(frame.maps(3, 3).x, 0);
 }
 
+TEST(Film, LightGroupsAreWeighedAndTheTotalStays) {
+    Film film(Vec2u(2, 1), 2);
+    const Vec3 parts[] = {Vec3(1, 2, 3), Vec3(0.5f, 0, 1)}, other[] = {Vec3(3, 0, 1), Vec3(0)};
+    film.add({1, 0}, 0, parts[0] + parts[1], 1, {}, parts);
+    film.add({1, 0}, 1, other[0], 1, {}, other);
+    const Vec3 broken[] = {Vec3(std::numeric_limits<float>::infinity(), 0, 0), Vec3(7)};
+    film.add({1, 0}, 2, broken[0], 1, {}, broken);
+    EXPECT_EQ(film.light_groups(), 2u);
+    EXPECT_EQ(film.bytes(), 2 * sizeof(FilmPixel) + 4 * sizeof(Vec3));
+    const FilmPixel& pixel = film.at({1, 0});
+    EXPECT_EQ(film.mean(pixel, {}), Vec4(2.25f, 1, 2.5f, 1));
+    const Vec3 weights[] = {Vec3(2), Vec3(0, 1, 4)};
+    EXPECT_EQ(film.mean(pixel, weights), Vec4(4, 2, 6, 1));
+    EXPECT_EQ(film.mean(film.at({0, 0}), weights), Vec4(0)) << "no sample yet";
+    EXPECT_EQ(film.mean(pixel, std::span(weights).first(1)), Vec4(2.25f, 1, 2.5f, 1)) << "weights of other groups";
+
+    const Film reweighted = film.reweighted(weights);
+    EXPECT_EQ(reweighted.at({1, 0}).radiance_sum, Vec3(8, 4, 12));
+    EXPECT_EQ(reweighted.at({1, 0}).count, 2u);
+    film.clear();
+    EXPECT_EQ(film.mean(film.at({1, 0}), weights), Vec4(0));
+}
+
 }  // namespace
 }  // namespace candela

@@ -76,6 +76,37 @@ TEST_F(ViewerTest, ViewsThatWereLookedAtAreGoneBackToAndOn) {
     }
 }
 
+TEST_F(ViewerTest, LightsAreReweightedWithoutARestart) {
+    RenderOptions options = options_for("assets/cornell_box.glb", 6);
+    start(options);
+    const ImageRgba8 before = picture();
+    PanelEdits edits;
+    edits.light_groups = true;
+    viewer_->apply(edits);
+    finish();
+    now_s_ += 10;
+    ASSERT_TRUE(model().lights.groups != nullptr);
+    EXPECT_EQ(difference(before, picture()), 0.0) << "to keep lights apart changes nothing";
+    const uint64_t epoch = model().status.epoch;
+
+    edits = {};
+    edits.light_weights = model().lights.weights;
+    for (LightWeight& weight : *edits.light_weights)
+        weight = {0.25f, Vec3(1, 0.5f, 0.5f)};
+    viewer_->apply(edits);
+    EXPECT_FALSE(viewer_->finished());
+    finish();
+    EXPECT_EQ(model().status.epoch, epoch);
+    EXPECT_GT(difference(before, picture()), 10.0);
+    EXPECT_NE(model().lights.words().find("× 0.25 (1 0.5 0.5)"), std::string::npos) << model().lights.words();
+
+    edits.light_weights->assign(edits.light_weights->size(), {});
+    viewer_->apply(edits);
+    finish();
+    EXPECT_EQ(difference(before, picture()), 0.0);
+    EXPECT_EQ(model().lights.words(), "");
+}
+
 TEST(ViewHistory, AnotherWayForgetsTheOldOne) {
     ViewHistory history;
     const auto view = [](float x) {
