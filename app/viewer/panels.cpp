@@ -227,7 +227,8 @@ void draw_statistics(const ViewerModel& model) {
                 fmt::format("{:.1f} ms (median {:.1f}, worst {:.1f} of {})", 1e3 * model.latency.last_s,
                             1e3 * model.latency.median_s, 1e3 * model.latency.worst_s, model.latency.count));
         }
-        row("of which tracing", fmt::format("{:.1f} ms", 1e3 * status.last_first_frame_seconds));
+        row(model.latency.count > 0 ? "of which tracing" : "edit to picture",
+            fmt::format("{:.1f} ms", 1e3 * status.last_first_frame_seconds));
         row("of which letting go", fmt::format("{:.1f} ms", 1e3 * status.last_cancel_seconds));
         ImGui::EndTable();
     }

@@ -10,9 +10,9 @@ namespace {
 
 // The first lattice may take this part of a frame's time: what is left goes to letting go of the old view, to resolving
 // the picture and to drawing it.
-constexpr double first_lattice_share = 0.35;
+constexpr double first_lattice_share = 0.3;
 // That and reprojecting the view before together.
-constexpr double first_picture_share = 0.55, least_lattice_share = 0.1;
+constexpr double first_picture_share = 0.5, least_lattice_share = 0.1;
 // A slice never lasts longer than this, so that commands are heard.
 constexpr double longest_slice_seconds = 0.1;
 
