@@ -16,17 +16,19 @@ TEST(Film, NonFiniteSamplesAreCountedNotAdded) {
 }
 
 TEST(Film, CoarseLatticesFillTheFrame) {
-    Film film({20, 20});
-    for (uint32_t y = 0; y < 20; y += 8) {
-        for (uint32_t x = 0; x < 20; x += 8)
-            film.add({x, y}, 0, Vec3(static_cast<float>(x)), 1);
-    }
-    Frame frame;
-    frame.image = ImageRgba32f(20, 20);
-    resolve_rows(film, 0, 20, frame);
-    for (int y = 0; y < 20; ++y) {
-        for (int x = 0; x < 20; ++x)
-            ASSERT_EQ(frame.image(x, y).x, static_cast<float>(x / 8 * 8));
+    for (const uint32_t stride : {2u, 8u, 64u}) {
+        Film film({150, 70});
+        for (uint32_t y = 0; y < 70; y += stride) {
+            for (uint32_t x = 0; x < 150; x += stride)
+                film.add({x, y}, 0, Vec3(static_cast<float>(x)), 1);
+        }
+        Frame frame;
+        frame.image = ImageRgba32f(150, 70);
+        resolve_rows(film, 0, 70, frame);
+        for (int y = 0; y < 70; ++y) {
+            for (int x = 0; x < 150; ++x)
+                ASSERT_EQ(frame.image(x, y).x, static_cast<float>(static_cast<uint32_t>(x) / stride * stride));
+        }
     }
 }
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Going back to a view: nothing of it is lost. And how long an input waits for its picture.
 #include <ctime>
+#include <fstream>
 
+#include "renderer/image/codec.h"
+#include "renderer/image/compare.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/viewer/viewer_fixture.h"
 
 namespace candela {
@@ -99,6 +103,15 @@ TEST_F(ViewerTest, LightsAreReweightedWithoutARestart) {
     EXPECT_EQ(model().status.epoch, epoch);
     EXPECT_GT(difference(before, picture()), 10.0);
     EXPECT_NE(model().lights.words().find("× 0.25 (1 0.5 0.5)"), std::string::npos) << model().lights.words();
+
+    // What is saved is what is shown, and says so.
+    const test::TemporaryFolder folder;
+    const std::filesystem::path saved = folder.path() / "saved.exr";
+    viewer_->save(saved.string());
+    EXPECT_LT(compare_images(read_linear(saved), viewer_->frame()->image).rel_mse, 1e-9);
+    std::ifstream file(saved, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_NE(bytes.find("× 0.25 (1 0.5 0.5)"), std::string::npos);
 
     edits.light_weights->assign(edits.light_weights->size(), {});
     viewer_->apply(edits);
