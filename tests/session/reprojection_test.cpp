@@ -114,6 +114,25 @@ TEST(Reprojection, AnObjectThatTheOldViewDidNotHaveIsNoGhost) {
     EXPECT_LT(moved.wrong, 0.01);
 }
 
+TEST(Reprojection, WhatLiesBehindAnObjectDoesNotShineThroughIt) {
+    // The old view stands between the box and the wall, and sees what the box then hides.
+    View between = view_from(0);
+    between.camera.world_from_camera = look_at(Vec3(0, 1.2f, -0.3f), Vec3(0, 0.6f, -4), Vec3(0, 1, 0));
+    between.camera.yfov_radians = 1.4f;
+    const Judged moved = judge(between, view_from(0), 4);
+    EXPECT_GT(moved.shown, 0.2);
+    EXPECT_LT(moved.wrong, 0.01);
+}
+
+TEST(Reprojection, TheBackOfACardIsNotItsFront) {
+    // The same places, from the other side: the back is dark.
+    View behind = view_from(0);
+    behind.camera.world_from_camera = look_at(Vec3(0, 1.2f, -3), Vec3(0, 0.6f, 0), Vec3(0, 1, 0));
+    const Judged moved = judge(view_from(0), behind, 4);
+    EXPECT_GT(moved.shown, 0.0) << "the floor is seen from both sides";
+    EXPECT_LT(moved.wrong, 0.01);
+}
+
 TEST(Reprojection, OrthographicAndPanoramaViewsMoveToo) {
     for (const Projection projection : {Projection::orthographic, Projection::panorama}) {
         View before = view_from(0), after = view_from(0.1f);
