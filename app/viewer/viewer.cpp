@@ -16,8 +16,9 @@ namespace {
 
 constexpr double notice_seconds = 4;
 constexpr double progress_seconds = 0.05;
-// The first picture of an edit is expected within this; to draw the old one again before it would only delay it.
-constexpr double first_frame_seconds = 0.025;
+// The first picture of an edit is expected within so many frames' times; to draw the old one again before it would only
+// delay it.
+constexpr double first_frame_times = 1.5;
 // Of a picture that nobody wants more of, in its mean.
 constexpr double invisible_error = 0.001;
 // How near to the line of the wipe the pointer grips it.
@@ -314,7 +315,7 @@ void Viewer::submit() {
     if (edited_s_) latency_.submitted(epoch, *std::exchange(edited_s_, std::nullopt));
     submit_other();
     if (pose_epoch_ == 0) pose_epoch_ = epoch;
-    if (hold_until_s_ < now_s()) hold_until_s_ = now_s() + first_frame_seconds;
+    if (hold_until_s_ < now_s()) hold_until_s_ = now_s() + first_frame_times * 1e-3 * options.frame_time_ms;
 }
 
 void Viewer::take_frame() {
