@@ -113,7 +113,7 @@ std::vector<std::string> parse_list(const std::string& text) {
 
 // Options as text, turned into values once CLI11 has read them.
 struct RawRenderOptions {
-    std::string resolution, eye, target, up, sky, background, aov, frames, open, compared;
+    std::string resolution, eye, target, up, sky, background, aov, frames, open, compared, inspect;
 };
 
 void add_render_options(CLI::App& command, RenderOptions& options, RawRenderOptions& raw) {
@@ -260,6 +260,13 @@ void finish_render_options(const RawRenderOptions& raw, RenderOptions& options) 
     }
     options.aovs = parse_list(raw.aov);
     options.open = parse_list(raw.open);
+    if (!raw.inspect.empty()) {
+        unsigned x = 0, y = 0;
+        char rest = 0;
+        if (std::sscanf(raw.inspect.c_str(), "%5u,%5u%c", &x, &y, &rest) != 2)
+            throw usage("--inspect " + raw.inspect + ": is not the column and row of a pixel, as in 640,360");
+        options.inspect = Vec2u(x, y);
+    }
     options.compared = parse_list(raw.compared);
     std::string unknown;
     compared_settings(options.integrator, options.compared, &unknown);
@@ -309,6 +316,9 @@ ExitStatus dispatch(int argc, char** argv) {
     screenshot_command->add_option("-o,--output", render.output, "ends in .png")->required()->type_name("OUT.png");
     add_viewer_options(*screenshot_command, render, raw);
     screenshot_command->add_option("--open", raw.open, "panels to show: panels,statistics,help")->type_name("LIST");
+    screenshot_command
+        ->add_option("--inspect", raw.inspect, "the panel of a pixel, and the path of its brightest sample")
+        ->type_name("X,Y");
     screenshot_command->add_flag("--ui,!--no-ui", with_interface, "with its panels, or only the picture");
 
     CLI::App* render_command = app.add_subcommand("render", "render without a display");

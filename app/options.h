@@ -53,6 +53,7 @@ struct RenderOptions {
     std::vector<std::string> compared;      // words of compared_settings; empty: no comparison
     std::string reference;                  // a picture that is taken for the truth
     std::optional<ReferenceMetric> metric;  // shown in place of a map
+    std::optional<Vec2u> inspect;           // a pixel of a screenshot
     bool denoise = false;                   // shows the denoised preview
     float wipe = 0.5f;                      // where it begins: 0 at the left edge, 1 at the right
     std::vector<std::string> open;          // panels of a screenshot

@@ -308,6 +308,21 @@ void show_pose(RenderJob& job, const RenderOptions& options, uint32_t animation,
     }
 }
 
+void edit_scene(RenderJob& job, const std::vector<Material>& materials, const std::vector<PunctualLight>& lights,
+                const std::atomic<bool>* cancel) {
+    auto scene = std::make_shared<Scene>(*job.world->scene), rest = std::make_shared<Scene>(*job.rest);
+    for (const std::shared_ptr<Scene>& each : {scene, rest}) {
+        each->materials = materials;
+        each->lights = lights;
+    }
+    job.rest = rest;
+    BuildOptions build;
+    build.cancel = cancel;
+    job.build_seconds = 0;
+    make_job_world(job, cancel, [&] { return with_pose(job.world, scene, build); });
+    job.request.world = job.world;
+}
+
 void show_variant(RenderJob& job, std::optional<uint32_t> variant, const std::atomic<bool>* cancel) {
     auto scene = std::make_shared<Scene>(*job.world->scene), rest = std::make_shared<Scene>(*job.rest);
     scene->active_variant = rest->active_variant = variant;

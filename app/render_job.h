@@ -41,6 +41,11 @@ void show_pose(RenderJob& job, const RenderOptions& options, uint32_t animation,
 // geometry. Throws CommandError.
 void show_variant(RenderJob& job, std::optional<uint32_t> variant, const std::atomic<bool>* cancel);
 
+// Gives the job's scene other materials and lights, as many as it has: a new world, of the same geometry. Throws
+// CommandError.
+void edit_scene(RenderJob& job, const std::vector<Material>& materials, const std::vector<PunctualLight>& lights,
+                const std::atomic<bool>* cancel);
+
 // The environment that the options name. Throws CommandError.
 std::shared_ptr<const Environment> read_environment(const RenderOptions& options);
 // A world with that environment (null: none) as the options turn and scale it.

@@ -177,6 +177,8 @@ void draw_help() {
                                        {"wipe of the map", "drag its line; , and ."},
                                        {"pause rendering", "P"},
                                        {"denoised preview", "D"},
+                                       {"undo, redo an edit", "Ctrl+Z, Ctrl+Shift+Z"},
+                                       {"pixel and its brightest path", "click; Escape"},
                                        {"compare two settings", "B"},
                                        {"reference, its measures", "hold Shift, M"},
                                        {"save picture, the denoised one", "Ctrl+S, Ctrl+Shift+S"},

@@ -26,6 +26,11 @@ void draw_convergence(const ViewerModel& model);
 void draw_badge(const ViewerModel& model);
 // "relMSE 0.0123": the number of that measure over all pixels.
 std::string metric_words(ReferenceMetric metric, const ImageDifference& difference);
+// The pixel that was clicked at, and the path of its brightest sample in the picture.
+void draw_pixel_panel(const ViewerModel& model);
+void draw_path(const ViewerModel& model);
+// The scene's tree, materials and lights, in the current window.
+void edit_section(ViewerModel& model, PanelEdits& edits);
 // What is compared, and with what, in the current window.
 void compare_section(ViewerModel& model, PanelEdits& edits);
 // How the sides of a comparison stand; nothing where there is none.

@@ -171,15 +171,20 @@ PanelEdits draw_side_panel(ViewerModel& model) {
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
     ImGui::PushItemWidth(0.55f * width);
+    const OrbitView view = model.view;
     camera_section(model, edits);
+    const bool lens_begins = edits.view && !model.edit_continues;
     views_section(model, edits);
     light_section(model, edits);
     lights_section(model, edits);
     render_section(model, edits);
     display_section(model, edits);
+    edit_section(model, edits);
     compare_section(model, edits);
     scene_section(model, edits);
     validation_section(edits);
+    if (lens_begins) edits.before_edit = Editable{model.materials, model.punctual_lights, view, false};
+    model.edit_continues = ImGui::IsAnyItemActive();
     ImGui::PopItemWidth();
     ImGui::End();
     return edits;

@@ -49,6 +49,7 @@ Viewer::Viewer(const RenderOptions& options, const GlContext& context, const Vie
     session_->show_maps(model_.map.shown);
     denoised_ = std::make_unique<DenoisedPreview>(*session_);
     model_.denoises = options.denoise;
+    wanted_inspection_ = options.inspect;
     if (!options.reference.empty()) load_reference(options.reference);
     if (!options.compared.empty()) {
         std::string unknown;
@@ -199,7 +200,10 @@ void Viewer::bring_back() {
     model_.bookmarks = shown.bookmarks;
     pose_epoch_ = 0;
     dirty_ = true;
-    if (model_.has_scene()) return;
+    if (model_.has_scene()) {
+        adopt_scene();
+        return;
+    }
     // There was nothing.
     session_->stop();
     frame_ = nullptr;
@@ -230,6 +234,10 @@ void Viewer::take_loaded() {
         return;
     }
     redraws_ = 2;
+    if (load_is_ == LoadKind::edit) {
+        take_edit(job);
+        return;
+    }
     if (load_is_ == LoadKind::environment) {
         take_environment(*result->scene);
         return;
@@ -238,6 +246,7 @@ void Viewer::take_loaded() {
     if (load_is_previewed_) {
         // What the person has done since the preview stays.
         model_.job = std::move(job);
+        adopt_scene();
         dirty_ = true;
     } else {
         show_scene(std::move(*result->scene));
@@ -269,6 +278,11 @@ void Viewer::show_scene(LoadedScene loaded) {
         for (uint32_t i = 0; i < world.scene->cameras.size(); ++i) {
             if (world.scene->cameras[i].camera.world_from_camera == camera.world_from_camera) followed_camera_ = i;
         }
+    }
+    if (load_keeps_view_) {
+        adopt_scene();
+    } else {
+        forget_edits();
     }
     if (load_is_ == LoadKind::scene) start_playback();
     if (model_.notice_is_error) model_.notice.clear();
@@ -314,6 +328,7 @@ void Viewer::submit() {
     const uint64_t epoch = session_->submit(request);
     if (edited_s_) latency_.submitted(epoch, *std::exchange(edited_s_, std::nullopt));
     submit_other();
+    renew_inspection();
     if (pose_epoch_ == 0) pose_epoch_ = epoch;
     if (hold_until_s_ < now_s()) hold_until_s_ = now_s() + first_frame_times * 1e-3 * options.frame_time_ms;
 }
@@ -344,7 +359,7 @@ void Viewer::take_frame() {
 
 void Viewer::show_map(const MapView& view) {
     model_.map = view;
-    session_->show_maps(view.shown);
+    session_->show_maps(view.shown || model_.inspection);
     if (view.shown && model_.comparison.shown) show_comparison(false);
     update_map();
 }
@@ -383,10 +398,12 @@ bool Viewer::update() {
     take_loaded();
     if (environment_dirty_ && !loader_.busy() && model_.has_scene()) start_environment_change();
     if (!loader_.busy() && pose_is_wanted()) start_pose();
+    if (scene_dirty_ && !loader_.busy() && !before_preview_ && model_.has_scene()) start_scene_edit();
     if (dirty_) submit();
     take_frame();
     take_other_frame();
     update_reference();
+    update_inspection();
 
     // Progress moves and notices go away by themselves.
     const double now = now_s();
@@ -416,6 +433,8 @@ void Viewer::draw() {
         place_picture();
         draw_wipe(model_);
         draw_badge(model_);
+        draw_path(model_);
+        draw_pixel_panel(model_);
         if (model_.has_scene()) {
             const std::vector<ValidationReading> readings =
                 read_validation(model_.job.scene_path, *model_.job.world, model_.job.request.view, frame_);
@@ -448,6 +467,8 @@ void Viewer::apply(const PanelEdits& edits) {
     if (edits.store_bookmark) store_bookmark(*edits.store_bookmark);
     if (edits.recall_bookmark) recall_bookmark(*edits.recall_bookmark);
     if (edits.step_view != 0) step_view(edits.step_view);
+    if (edits.before_edit) history_.add(*edits.before_edit);
+    if (edits.scene_edited) scene_dirty_ = true;
     if (edits.environment) environment_dirty_ = true;
     if (edits.toggle_pause) toggle_pause();
     if (edits.toggle_play) toggle_play();
@@ -477,10 +498,10 @@ void Viewer::apply(const PanelEdits& edits) {
 }
 
 bool Viewer::finished() const {
-    if (loader_.busy() || dirty_ || environment_dirty_ || pose_is_wanted()) return false;
+    if (loader_.busy() || dirty_ || scene_dirty_ || environment_dirty_ || pose_is_wanted()) return false;
     if (map_is_missing() || weighing_is_missing()) return false;
     if (model_.denoises && model_.has_scene() && !denoised_->is_last(model_.status)) return false;
-    if (reference_is_missing()) return false;
+    if (reference_is_missing() || inspection_is_missing()) return false;
     if (model_.comparison.shown && model_.has_scene() && !model_.comparison.status.done) return false;
     return !model_.has_scene() || model_.status.done;
 }
@@ -489,7 +510,8 @@ double Viewer::seconds_until_update() const {
     if (redraws_ > 0 || dirty_) return now_s() < hold_until_s_ ? 0.001 : 0;
     if (model_.playback.playing || (loader_.busy() && load_is_ == LoadKind::pose)) return 0.004;
     if (loader_.busy()) return 0.02;
-    if (map_is_missing() || weighing_is_missing() || denoised_->busy() || reference_.busy()) return 0.008;
+    if (map_is_missing() || weighing_is_missing() || denoised_->busy() || reference_.busy() || inspection_is_missing())
+        return 0.008;
     if (model_.comparison.shown && !model_.comparison.status.done && !model_.status.paused) return 0.008;
     // The picture that someone waits for is taken when it comes.
     if (latency_.waits(model_.frame_epoch)) return 0.001;

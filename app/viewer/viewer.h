@@ -62,7 +62,7 @@ class Viewer {
     ExitStatus load_status() const { return load_status_; }
 
   private:
-    enum class LoadKind : uint8_t { scene, environment, variant, pose };
+    enum class LoadKind : uint8_t { scene, environment, variant, pose, edit };
     // What a scene that cannot be read leaves as it was.
     struct Shown {
         RenderOptions options;
@@ -116,6 +116,18 @@ class Viewer {
     void save_image(const std::string& path, const Frame& frame, bool denoised) const;
     void toggle_background();
     void toggle_pause();
+    Editable editable() const;
+    void adopt_scene();
+    void forget_edits();
+    void undo_edit(bool redo);
+    void start_scene_edit();
+    void take_edit(const RenderJob& edited);
+    void inspect_at_cursor();
+    void begin_inspection(Vec2u pixel);
+    void end_inspection();
+    void renew_inspection();
+    void update_inspection();
+    bool inspection_is_missing() const;  // something of the pixel under the glass is not known yet
     void show_comparison(bool shown);
     void toggle_comparison();
     void submit_other();
@@ -164,7 +176,15 @@ class Viewer {
     std::unique_ptr<RenderSession> session_;
     std::unique_ptr<RenderSession> other_session_;  // of the comparison
     const Frame* other_frame_ = nullptr;
+    EditHistory history_;
+    bool scene_dirty_ = false;  // materials or lights have to be compiled
+    OrbitView view_before_drag_;
     ReferencePicture reference_;
+    BackgroundTask<PixelLedger> search_;
+    uint32_t searched_samples_ = 0;
+    std::optional<Vec2u> wanted_inspection_;  // once there is a picture
+    uint64_t search_epoch_ = 0;
+    Vec2 press_{0};                       // where the last button went down
     bool reference_is_uploaded_ = false;  // in place of other_frame_
     std::unique_ptr<DenoisedPreview> denoised_;
     uint64_t denoised_serial_ = 0;

@@ -16,6 +16,7 @@ constexpr double double_click_s = 0.4;
 constexpr float double_click_points = 6;
 constexpr float dolly_per_step = 0.88f;
 constexpr float exposure_step_ev = 0.25f;
+constexpr float click_points = 2;  // a button that comes up as near was clicked
 constexpr float wipe_step = 0.05f;
 
 bool is_scene_file(const std::string& path) {
@@ -94,11 +95,18 @@ void Viewer::set_view(const OrbitView& view) {
 
 void Viewer::handle_mouse_press(const MousePressed& event) {
     if (!event.pressed) {
-        if (event.button == drag_button_) drag_ = DragMode::none;
+        if (event.button != drag_button_) return;
+        const bool clicked = drag_ == DragMode::orbit && glm::distance(press_, cursor_) < click_points;
+        drag_ = DragMode::none;
+        if (model_.view != view_before_drag_)
+            history_.add({model_.materials, model_.punctual_lights, view_before_drag_, false});
+        if (clicked) inspect_at_cursor();
         return;
     }
     if (!model_.has_scene() || drag_ != DragMode::none) return;
     drag_button_ = event.button;
+    press_ = cursor_;
+    view_before_drag_ = model_.view;
     const Modifiers& modifiers = event.modifiers;
     if (event.button == MouseButton::left && wipe_is_at_cursor()) {
         drag_ = DragMode::wipe;
@@ -169,6 +177,7 @@ void Viewer::handle_key(const KeyPressed& event) {
     if (modifiers.ctrl) {
         if (event.key == Key::q) close_ = true;
         if (event.key == Key::s) save_next(modifiers.shift);
+        if (event.key == Key::z) undo_edit(modifiers.shift);
         if (is_digit(event.key)) store_bookmark(digit_of(event.key));
         return;
     }
@@ -206,6 +215,7 @@ void Viewer::handle_key(const KeyPressed& event) {
             return;
         case Key::escape:
             model_.show_help = false;
+            if (model_.inspection) end_inspection();
             if (model_.notice_is_error) model_.notice.clear();
             return;
         case Key::left:

@@ -6,7 +6,9 @@
 #include "app/render_job.h"
 #include "app/viewer/bookmarks.h"
 #include "app/viewer/compared_settings.h"
+#include "app/viewer/edit_history.h"
 #include "app/viewer/error_words.h"
+#include "app/viewer/inspection.h"
 #include "app/viewer/latency.h"
 #include "app/viewer/light_mixer.h"
 #include "app/viewer/map_view.h"
@@ -53,6 +55,12 @@ struct ViewerModel {
 
     Comparison comparison;
     std::optional<ReferenceView> reference;
+    // What the panels edit: of the scene, once it is compiled.
+    std::vector<Material> materials;
+    std::vector<PunctualLight> punctual_lights;
+    uint32_t edited_material = 0, edited_light = 0;  // that the panel shows
+    bool edit_continues = false;                     // something is being dragged: no new step of the history
+    std::optional<Inspection> inspection;            // of the pixel that was clicked at
 
     bool show_interface = true;  // false: only the picture
     bool show_panels = false;
@@ -82,15 +90,17 @@ struct ViewerModel {
 
 // What a panel has changed.
 struct PanelEdits {
-    bool view = false;         // the camera
-    bool settings = false;     // how it is rendered: restarts
-    bool environment = false;  // a new world off-thread
-    bool tone = false;         // only drawn anew
-    bool map = false;          // another map, or none
-    bool denoise = false;      // on or off
-    bool compare = false;      // on or off
-    bool compared = false;     // with other settings
-    bool metric = false;       // another measure of the distance to the reference
+    bool view = false;                    // the camera
+    bool settings = false;                // how it is rendered: restarts
+    bool environment = false;             // a new world off-thread
+    bool tone = false;                    // only drawn anew
+    bool map = false;                     // another map, or none
+    bool denoise = false;                 // on or off
+    bool scene_edited = false;            // materials or lights: a new world off-thread
+    std::optional<Editable> before_edit;  // where an edit begins: what there was
+    bool compare = false;                 // on or off
+    bool compared = false;                // with other settings
+    bool metric = false;                  // another measure of the distance to the reference
     bool toggle_pause = false;
     bool light_groups = false;                              // samples are to be kept apart by their lights: restarts
     bool frame_time = false;                                // when young pictures are shown

@@ -132,6 +132,7 @@ TEST_F(CommandLine, WrongUsageIsTwo) {
                                          "screenshot -o " + file("a.png") + " --frame-time 1",
                                          "screenshot -o " + file("a.png") + " --limit-views -1",
                                          "screenshot -o " + file("a.png") + " --compare-with mist",
+                                         "screenshot -o " + file("a.png") + " --inspect 5",
                                          "screenshot -o " + file("a.png") + " --metric flip",
                                          "screenshot -o " + file("a.png") + " --compare-with bsdf --map error",
                                          "screenshot -o " + file("a.png") + " --open doors",

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// The pixel under the glass, and the path of its brightest sample: as a table, and drawn in the scene.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "app/viewer/panels.h"
+
+namespace candela {
+
+namespace {
+
+const ImU32 path_color = IM_COL32(232, 163, 61, 255), light_color = IM_COL32(110, 185, 235, 255),
+            shadow_color = IM_COL32(0, 0, 0, 150);
+
+constexpr size_t most_rows = 12;
+
+std::string number(float value) {
+    return fmt::format("{:.3g}", value);
+}
+
+std::string color_text(const Vec3& c) {
+    return fmt::format("{:.3g}  {:.3g}  {:.3g}", c.r, c.g, c.b);
+}
+
+std::string material_name(const Scene& scene, uint32_t material) {
+    if (material >= scene.materials.size()) return "glTF's default";
+    const std::string& name = scene.materials[material].name;
+    return name.empty() ? fmt::format("material {}", material) : name;
+}
+
+std::string object_name(const Scene& scene, uint32_t instance) {
+    if (instance >= scene.instances.size()) return "";
+    const NodeId node = scene.instances[instance].node;
+    if (node.valid() && !scene.nodes[node.value].name.empty()) return scene.nodes[node.value].name;
+    return fmt::format("object {}", instance);
+}
+
+void row(const char* name, const std::string& value) {
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", name);
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(value.c_str());
+}
+
+void pixel_rows(const ViewerModel& model, const Inspection& inspection) {
+    const Scene& scene = *model.job.world->scene;
+    if (!ImGui::BeginTable("pixel", 2, ImGuiTableFlags_SizingFixedFit)) return;
+    row("pixel", fmt::format("{}, {}", inspection.pixel.x, inspection.pixel.y));
+    row("value", color_text(Vec3(inspection.value)));
+    if (inspection.error >= 0)
+        row("error",
+            fmt::format("±{}, {:.0f} samples, {:.1f} rays each", percent_text(static_cast<double>(inspection.error)),
+                        inspection.samples, inspection.rays));
+    if (inspection.hit.hit) {
+        const FirstHit& hit = inspection.hit;
+        row("object", object_name(scene, hit.instance));
+        row("material", material_name(scene, hit.material));
+        row("position", color_text(hit.position) + " m");
+        row("distance, uv", fmt::format("{:.4g} m, {:.3f} {:.3f}", hit.depth, hit.uv.x, hit.uv.y));
+        row("albedo", color_text(hit.albedo));
+        if (hit.material < scene.materials.size()) {
+            const Material& material = scene.materials[hit.material];
+            row("base colour", color_text(Vec3(material.base_color_factor)));
+            row("metallic, roughness",
+                fmt::format("{:.2f}, {:.2f}", material.metallic_factor, material.roughness_factor));
+            if (material.emits()) row("emission", color_text(material.emissive_factor * material.emissive_strength));
+            if (material.transmits())
+                row("transmission, ior", fmt::format("{:.2f}, {:.3g}", material.transmission.factor, material.ior));
+        }
+    } else {
+        row("object", "the background");
+    }
+    ImGui::EndTable();
+}
+
+void ledger_rows(const ViewerModel& model, const PixelLedger& ledger) {
+    const Scene& scene = *model.job.world->scene;
+    const Ledger& path = ledger.path;
+    ImGui::TextUnformatted(fmt::format("its brightest of {} samples: number {}, {:.3g}", ledger.samples,
+                                       path.sample.index, luminance(path.radiance))
+                               .c_str());
+    if (!ImGui::BeginTable("ledger", 6, ImGuiTableFlags_SizingFixedFit)) return;
+    for (const char* title : {"", "surface", "event", "pdf", "carries", "brings"}) {
+        ImGui::TableNextColumn();
+        ImGui::TextDisabled("%s", title);
+    }
+    for (size_t i = 0; i < std::min(path.vertices.size(), most_rows); ++i) {
+        const LedgerVertex& vertex = path.vertices[i];
+        const float brought = luminance(vertex.found + vertex.connected);
+        for (const std::string& cell :
+             {fmt::format("{}", i + 1),
+              vertex.event == PathEvent::missed ? std::string("background") : material_name(scene, vertex.material),
+              std::string(name_of(vertex.event)), vertex.pdf > 0 ? number(vertex.pdf) : std::string("-"),
+              number(luminance(vertex.throughput)),
+              brought > 0 ? number(brought) + (luminance(vertex.found) > 0 ? " found" : " light") : std::string("-")}) {
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(cell.substr(0, 24).c_str());
+        }
+    }
+    ImGui::EndTable();
+    if (path.vertices.size() > most_rows) ImGui::TextDisabled("and %zu more", path.vertices.size() - most_rows);
+}
+
+// Segments of a path in points of the window.
+class Overlay {
+  public:
+    Overlay(const ViewerModel& model, const View& view) : model_(model), view_(view) {}
+
+    void line(const Vec3& a, const Vec3& b, ImU32 color, float width) {
+        std::optional<ImVec2> from = point(a), to = point(b);
+        // What begins or ends behind the eye is cut where it comes into sight.
+        if (!from && !to) return;
+        Vec3 seen = from ? a : b, hidden = from ? b : a;
+        if (!from || !to) {
+            for (int i = 0; i < 24; ++i) {
+                const Vec3 middle = 0.5f * (seen + hidden);
+                (point(middle) ? seen : hidden) = middle;
+            }
+            (from ? to : from) = point(seen);
+        }
+        if (!from || !to) return;
+        draw_->AddLine(*from, *to, shadow_color, width + 2);
+        draw_->AddLine(*from, *to, color, width);
+    }
+    void dot(const Vec3& at, ImU32 color, const std::string& words) {
+        const std::optional<ImVec2> center = point(at);
+        if (!center) return;
+        draw_->AddCircleFilled(*center, 5, shadow_color);
+        draw_->AddCircleFilled(*center, 3.5f, color);
+        if (words.empty()) return;
+        draw_->AddText({center->x + 7, center->y - 5}, shadow_color, words.c_str());
+        draw_->AddText({center->x + 6, center->y - 6}, color, words.c_str());
+    }
+
+  private:
+    std::optional<ImVec2> point(const Vec3& world) const {
+        const float aspect = static_cast<float>(view_.extent.x) / static_cast<float>(view_.extent.y);
+        const Vec3 seen = project(view_.camera, aspect, world);
+        if (!(seen.z > 1e-6f) || !is_finite(seen)) return std::nullopt;
+        const ImVec2 display = ImGui::GetIO().DisplaySize;
+        const Vec2 at = Vec2(seen) * Vec2(display.x, display.y);
+        if (std::abs(at.x) > 1e5f || std::abs(at.y) > 1e5f) return std::nullopt;
+        return ImVec2(at.x, at.y);
+    }
+
+    const ViewerModel& model_;
+    const View& view_;
+    ImDrawList* draw_ = ImGui::GetBackgroundDrawList();
+};
+
+}  // namespace
+
+void draw_path(const ViewerModel& model) {
+    if (!model.inspection || !model.inspection->ledger) return;
+    const std::vector<LedgerVertex>& vertices = model.inspection->ledger->path.vertices;
+    Overlay overlay(model, model.inspection->view);
+    for (size_t i = 0; i < vertices.size(); ++i) {
+        if (i > 0) overlay.line(vertices[i - 1].position, vertices[i].position, path_color, 1.6f);
+        if (luminance(vertices[i].connected) > 0)
+            overlay.line(vertices[i].position, vertices[i].connection_end, light_color, 1.2f);
+    }
+    for (size_t i = 0; i < vertices.size(); ++i) {
+        if (vertices[i].event != PathEvent::missed)
+            overlay.dot(vertices[i].position, path_color, fmt::format("{}", i + 1));
+    }
+}
+
+void draw_pixel_panel(const ViewerModel& model) {
+    if (!model.inspection || !model.has_scene()) return;
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float unit = ImGui::GetFontSize();
+    const float right = model.show_panels ? std::min(20 * unit, display.x - 2 * unit) + 2 * unit : unit;
+    ImGui::SetNextWindowPos({display.x - right, display.y - 4.6f * unit}, ImGuiCond_Always, {1, 1});
+    ImGui::Begin("Pixel", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize |
+                     ImGuiWindowFlags_NoInputs);
+    pixel_rows(model, *model.inspection);
+    ImGui::Separator();
+    if (model.inspection->ledger) {
+        ledger_rows(model, *model.inspection->ledger);
+    } else {
+        ImGui::TextDisabled("looking for its brightest sample");
+    }
+    ImGui::End();
+}
+
+}  // namespace candela

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// A pixel under the glass, and edits of the scene with their undoing.
+#include "renderer/integrator/ledger.h"
+#include "tests/viewer/viewer_fixture.h"
+
+namespace candela {
+namespace {
+
+using test::difference;
+using test::extent;
+using test::options_for;
+using test::ViewerTest;
+
+constexpr Modifiers ctrl{.ctrl = true}, ctrl_shift{.shift = true, .ctrl = true};
+
+TEST_F(ViewerTest, AClickShowsThePixelAndReplaysItsBrightestSample) {
+    start(options_for("assets/cornell_box.glb", 8));
+    const OrbitView view = model().view;
+    const ImageRgba8 plain = picture();
+    click({100, 20});
+    finish();
+    ASSERT_TRUE(model().inspection.has_value());
+    const Inspection& inspection = *model().inspection;
+    EXPECT_EQ(inspection.pixel, Vec2u(100, 20));
+    EXPECT_EQ(inspection.value, viewer_->frame()->image(100, 20));
+    EXPECT_GT(inspection.error, 0);
+    EXPECT_EQ(inspection.samples, 8);
+    EXPECT_TRUE(inspection.hit.hit);
+    EXPECT_EQ(model().edited_material, inspection.hit.material);
+    ASSERT_TRUE(inspection.ledger.has_value());
+    EXPECT_EQ(inspection.ledger->samples, 8u);
+    RayCounts counts;
+    const RenderRequest& request = model().job.request;
+    EXPECT_EQ(
+        inspection.ledger->path.radiance,
+        trace_sample(*request.world, request.view, request.settings, inspection.ledger->path.sample, counts).radiance);
+    EXPECT_EQ(model().view, view);
+    EXPECT_GT(difference(plain, picture()), 2);
+
+    press(Key::escape);
+    EXPECT_FALSE(model().inspection.has_value());
+    EXPECT_EQ(difference(plain, picture()), 0);
+    // A drag is no click, and another view puts the glass away.
+    drag(MouseButton::left, {60, 20}, {80, 20});
+    EXPECT_FALSE(model().inspection.has_value());
+    finish();
+    click({100, 20});
+    finish();
+    EXPECT_TRUE(model().inspection.has_value());
+    press(Key::digit_7);
+    finish();
+    EXPECT_FALSE(model().inspection.has_value());
+}
+
+TEST_F(ViewerTest, EditsOfMaterialsKeepTheGeometryAndAreUndone) {
+    start(options_for("assets/cornell_box.glb"));
+    const ImageRgba32f before = viewer_->frame()->image;
+    const std::shared_ptr<const World> world = model().job.world;
+    // As the panel leaves it: the first step of a drag, and another of the same.
+    ViewerModel& edited = const_cast<ViewerModel&>(model());
+    PanelEdits edits;
+    edits.before_edit = Editable{edited.materials, edited.punctual_lights, edited.view};
+    edits.scene_edited = true;
+    for (Material& material : edited.materials)
+        material.base_color_factor = Vec4(0.1f, 0.1f, 0.9f, 1);
+    viewer_->apply(edits);
+    edits.before_edit.reset();
+    edited.materials[0].roughness_factor = 0.3f;
+    viewer_->apply(edits);
+    finish();
+    const ImageRgba32f blue = viewer_->frame()->image;
+    EXPECT_NE(before.pixels(), blue.pixels());
+    EXPECT_EQ(model().job.world->fixed.parts, world->fixed.parts) << "nothing of the geometry is built anew";
+
+    // What a world made from nothing would show, to the bit.
+    RenderRequest request = model().job.request;
+    auto scene = std::make_shared<Scene>(*world->scene);
+    scene->materials = edited.materials;
+    request.world = build_world(scene);
+    SessionOptions session_options;
+    session_options.publish_frames = false;
+    RenderSession session(session_options);
+    session.submit(request);
+    session.wait_until_done();
+    EXPECT_EQ(session.latest()->image.pixels(), blue.pixels());
+
+    press(Key::z, ctrl);
+    finish();
+    EXPECT_EQ(viewer_->frame()->image.pixels(), before.pixels());
+    press(Key::z, ctrl_shift);
+    finish();
+    EXPECT_EQ(viewer_->frame()->image.pixels(), blue.pixels());
+    press(Key::z, ctrl_shift);
+    EXPECT_EQ(model().notice, "nothing was undone");
+}
+
+TEST_F(ViewerTest, MovesOfTheCameraAreUndoneToo) {
+    start(options_for("assets/cornell_box.glb"));
+    const OrbitView first = model().view;
+    drag(MouseButton::left, {60, 20}, {80, 30});
+    const OrbitView second = model().view;
+    drag(MouseButton::middle, {60, 20}, {80, 30});
+    EXPECT_NE(second, first);
+    press(Key::z, ctrl);
+    EXPECT_EQ(model().view, second);
+    press(Key::z, ctrl);
+    EXPECT_EQ(model().view, first);
+    press(Key::z, ctrl);
+    EXPECT_EQ(model().notice, "there is nothing to undo");
+    press(Key::z, ctrl_shift);
+    EXPECT_EQ(model().view, second);
+    // A new move ends what could be redone.
+    drag(MouseButton::left, {60, 20}, {70, 30});
+    press(Key::z, ctrl_shift);
+    EXPECT_EQ(model().notice, "nothing was undone");
+}
+
+}  // namespace
+}  // namespace candela
