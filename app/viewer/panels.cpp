@@ -231,6 +231,8 @@ void draw_statistics(const ViewerModel& model) {
         }
         row(model.latency.count > 0 ? "of which tracing" : "edit to picture",
             fmt::format("{:.1f} ms", 1e3 * status.last_first_frame_seconds));
+        if (status.last_reproject_seconds > 0)
+            row("of which reprojecting", fmt::format("{:.1f} ms", 1e3 * status.last_reproject_seconds));
         row("of which letting go", fmt::format("{:.1f} ms", 1e3 * status.last_cancel_seconds));
         ImGui::EndTable();
     }

@@ -12,7 +12,7 @@ namespace {
 // the picture and to drawing it.
 constexpr double first_lattice_share = 0.3;
 // That and reprojecting the view before together.
-constexpr double first_picture_share = 0.5, least_lattice_share = 0.1;
+constexpr double first_picture_share = 0.5, least_lattice_share = 0.15;
 // A slice never lasts longer than this, so that commands are heard.
 constexpr double longest_slice_seconds = 0.1;
 

@@ -8,7 +8,11 @@ namespace {
 
 // A view with fewer samples is not worth reprojecting.
 constexpr uint32_t least_reprojected_samples = 4;
-constexpr uint32_t finest_guide_stride = 4;
+// The lattice that tells what a moved view shows: about so many points, and no nearer to each other than that.
+constexpr double guide_count = 16384;
+constexpr double least_guide_stride = 4;
+// Reprojecting may take this part of a frame's time.
+constexpr double reprojection_share = 0.45;
 constexpr uint32_t rows_per_chunk = 16;
 
 }  // namespace
@@ -54,13 +58,22 @@ void RenderSession::Impl::trace_guides() {
     own_anchor.guided_rows = std::min(next.load(), height);
 }
 
-// Once for an epoch: with its first picture.
-void RenderSession::Impl::reproject() {
+uint32_t RenderSession::Impl::affordable_reprojection_step() const {
+    const double pixels = static_cast<double>(request.view.extent.x) * request.view.extent.y;
+    uint32_t step = 1;
+    while (step < 8 && pixels / (step * step) * reproject_seconds_per_point > reprojection_share * frame_seconds.load())
+        step *= 2;
+    return step;
+}
+
+// With an epoch's first picture as finely as there is time for, and once more in full with the next.
+void RenderSession::Impl::reproject(uint32_t step) {
     if (!options.reproject || !anchor.serves(request) || anchor.view == request.view) return;
     const Clock::time_point start = Clock::now();
     const Vec2u extent = request.view.extent;
     try {
-        GuideLattice lattice(extent, std::max(now->schedule->current_stride(), finest_guide_stride));
+        const double spacing = std::sqrt(static_cast<double>(extent.x) * extent.y / guide_count);
+        GuideLattice lattice(extent, static_cast<uint32_t>(std::max(std::round(spacing), least_guide_stride)));
         std::atomic<uint32_t> next{0};
         const std::function<void(unsigned)> job = [&](unsigned) {
             for (uint32_t row = next.fetch_add(1); row < lattice.size().y; row = next.fetch_add(1))
@@ -71,17 +84,25 @@ void RenderSession::Impl::reproject() {
         if (reprojected.width() != width || reprojected.height() != height) reprojected = ImageRgba32f(width, height);
         const ReprojectionSource source{&anchor.samples->film, &anchor.guides, anchor.view, weights};
         run_rows([&](uint32_t begin, uint32_t end) {
-            reproject_rows(source, request.view, lattice, begin, end, reprojected);
+            reproject_rows(source, request.view, lattice, begin, end, reprojected, step);
         });
         is_reprojected = true;
+        reprojected_step = step;
     } catch (const std::bad_alloc&) {
         reprojected = {};
     }
-    reproject_seconds = seconds_between(start, Clock::now());
+    const double seconds = seconds_between(start, Clock::now());
+    const double pixels = static_cast<double>(extent.x) * extent.y;
+    reproject_seconds_per_point = seconds * (step * step) / pixels;
+    if (!first_frame_out) last_reproject_seconds = reproject_seconds = seconds;
 }
 
 void RenderSession::Impl::publish() {
-    if (!first_frame_out && resumed_samples == 0 && active) reproject();
+    if (!first_frame_out && resumed_samples == 0 && active) {
+        reproject(affordable_reprojection_step());
+    } else if (is_reprojected && reprojected_step > 1 && active) {
+        reproject(1);
+    }
     Frame& frame = frames.back();
     const auto width = static_cast<int>(now->film.extent().x);
     const auto height = static_cast<int>(now->film.extent().y);

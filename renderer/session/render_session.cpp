@@ -71,6 +71,7 @@ void RenderSession::Impl::update_status() {
     status.paused = paused;
     status.last_cancel_seconds = last_cancel_seconds;
     status.last_first_frame_seconds = last_first_frame_seconds;
+    status.last_reproject_seconds = first_frame_out && is_reprojected ? last_reproject_seconds : 0;
     status.error = error;
     status.resumed_samples = resumed_samples;
     status.kept_views = static_cast<uint32_t>(kept.count());
@@ -124,7 +125,7 @@ void RenderSession::Impl::control_loop() {
             begin_epoch(std::move(*next), next_epoch, submitted);
             update_status();
         } else if (republish) {
-            if (is_reprojected) reproject();
+            if (is_reprojected) reproject(1);
             if (first_frame_out) publish();
             continue;
         }

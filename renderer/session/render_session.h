@@ -40,8 +40,9 @@ struct SessionStatus {
     // publication of the first frame.
     double last_cancel_seconds = 0;
     double last_first_frame_seconds = 0;
-    uint32_t resumed_samples = 0;  // complete passes that this view had when it was submitted
-    uint32_t kept_views = 0;       // others, whose samples wait
+    double last_reproject_seconds = 0;  // of which leading the view before over took that long
+    uint32_t resumed_samples = 0;       // complete passes that this view had when it was submitted
+    uint32_t kept_views = 0;            // others, whose samples wait
     uint64_t kept_bytes = 0;
 };
 

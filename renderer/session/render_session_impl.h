@@ -63,7 +63,8 @@ struct RenderSession::Impl {
     void trace_slice();
     bool trace_tile(WorkerTally& tally, const std::atomic<uint64_t>* cancel);
     void trace_guides();
-    void reproject();
+    void reproject(uint32_t step);
+    uint32_t affordable_reprojection_step() const;
     bool finished_by_limits();
     void finish_epoch();
     void measure_film();
@@ -113,6 +114,8 @@ struct RenderSession::Impl {
     Anchor anchor, own_anchor;  // the view before, and what is rendered now as one
     ImageRgba32f reprojected;   // of the anchor, for this epoch
     bool is_reprojected = false;
+    uint32_t reprojected_step = 1;
+    double reproject_seconds_per_point = 0;
     double reproject_seconds = 0;        // what it took last
     std::shared_ptr<ViewSamples> spare;  // for the next view, once this one is worth keeping
     bool active = false;
@@ -125,7 +128,7 @@ struct RenderSession::Impl {
     bool left_bookmarked = false;  // the view that is left now
     uint32_t resumed_samples = 0;  // that were there when this epoch began
     uint64_t slice_token = 0;
-    double last_cancel_seconds = 0, last_first_frame_seconds = 0;
+    double last_cancel_seconds = 0, last_first_frame_seconds = 0, last_reproject_seconds = 0;
     std::string error;
 
     TripleBuffer<Frame> frames;

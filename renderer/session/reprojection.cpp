@@ -15,8 +15,9 @@ constexpr float sky_distance = 1e4f;
 // How far off a surface may be, as a part of its distance, and how far turned, to be the same one.
 constexpr float depth_tolerance = 0.02f;
 constexpr float normal_tolerance_cos = 0.7f;
-// Nearer than this, in pixels, is the same pixel.
-constexpr float pixel_tolerance = 0.71f;
+// Nearer than this, in pixels, is the same pixel; where the new view stretches a surface, the nearest one that there is
+// may be this far off.
+constexpr float pixel_tolerance = 0.71f, stretched_tolerance = 1.6f;
 constexpr int most_steps = 3;
 // A reprojected pixel counts as so many samples while the pixel has none of its own.
 constexpr float reprojected_weight = 8;
@@ -52,20 +53,28 @@ class RowSearch {
     // "Iterative Image Warping", section 3: the fixed point of the flow).
     std::optional<Vec2u> search(const Vec2& pixel, Vec2& offset) {
         const Vec2 extent(source_.view.extent);
+        float best = stretched_tolerance;
+        std::optional<Vec2u> out;
         for (int step = 0; step < most_steps; ++step) {
             const Vec2 at = pixel + offset;
-            if (!(at.x >= 0 && at.y >= 0 && at.x < extent.x && at.y < extent.y)) return std::nullopt;
+            if (!(at.x >= 0 && at.y >= 0 && at.x < extent.x && at.y < extent.y)) return out;
             const Vec2u candidate(at);
-            found_ = source_.guides->at(candidate);
-            if (!is_known(found_)) return std::nullopt;
-            const Vec3 seen = to_view_(found_.position);
+            const SurfaceGuide& guide = source_.guides->at(candidate);
+            if (!is_known(guide)) return out;
+            const Vec3 seen = to_view_(guide.position);
             // The candidate's centre is seen there: the rest is how far the offset is off.
             const Vec2 miss = pixel - Vec2(seen);
-            depth_ = seen.z;
-            if (std::max(std::abs(miss.x), std::abs(miss.y)) < pixel_tolerance) return candidate;
+            const float distance = std::max(std::abs(miss.x), std::abs(miss.y));
+            if (distance < best) {
+                best = distance;
+                out = candidate;
+                found_ = guide;
+                depth_ = seen.z;
+            }
+            if (distance < pixel_tolerance) return out;
             offset = Vec2(candidate) + 0.5f + miss - pixel;
         }
-        return std::nullopt;
+        return out;
     }
     const SurfaceGuide& found() const { return found_; }
     float depth() const { return depth_; }
@@ -151,13 +160,13 @@ Vec3 PixelProjection::operator()(const Vec3& world_point) const noexcept {
 }
 
 void reproject_rows(const ReprojectionSource& source, const View& view, const GuideLattice& lattice, uint32_t row_begin,
-                    uint32_t row_end, ImageRgba32f& out) noexcept {
+                    uint32_t row_end, ImageRgba32f& out, uint32_t step) noexcept {
     const PixelProjection to_view(view), to_source(source.view);
     const Vec2u last = lattice.size() - 1u;
     std::vector<Corner> above(lattice.size().x), below(lattice.size().x);
     uint32_t corners_of = invalid_index;
     RowSearch row(source, to_view);
-    for (uint32_t y = row_begin; y < row_end; ++y) {
+    for (uint32_t y = row_begin; y < row_end; y += step) {
         const uint32_t top = y / lattice.stride();
         if (corners_of != top) {
             for (uint32_t i = 0; i < lattice.size().x; ++i) {
@@ -175,8 +184,8 @@ void reproject_rows(const ReprojectionSource& source, const View& view, const Gu
             };
             const uint32_t end = std::min((left + 1) * lattice.stride(), view.extent.x);
             std::optional<Vec2> before;
-            for (uint32_t x = left * lattice.stride(); x < end; ++x) {
-                const Vec2 pixel = Vec2(x, y) + 0.5f;
+            for (uint32_t x = (left * lattice.stride() + step - 1) / step * step; x < end; x += step) {
+                const Vec2 pixel = Vec2(Vec2u(x, y) + step / 2) + 0.5f;
                 std::optional<Vec2u> found;
                 // On one surface neighbours move alike; at an edge the nearer surface is asked for first.
                 if (cell.flat && before) {
@@ -200,7 +209,10 @@ void reproject_rows(const ReprojectionSource& source, const View& view, const Gu
                 } else {
                     before.reset();
                 }
-                out(static_cast<int>(x), static_cast<int>(y)) = color;
+                for (uint32_t j = y; j < std::min(y + step, row_end); ++j) {
+                    for (uint32_t i = x; i < std::min(x + step, view.extent.x); ++i)
+                        out(static_cast<int>(i), static_cast<int>(j)) = color;
+                }
             }
         }
     }

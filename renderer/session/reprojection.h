@@ -61,9 +61,10 @@ struct ReprojectionSource {
 
 // Fills rows [row_begin, row_end) of out, which has the extent of both views: the source's mean radiance and alpha
 // where it shows what the view shows, red NaN where it does not: where depth or normal disagree with those of the
-// view's own lattice.
+// view's own lattice. step: of a square of so many pixels along its sides, a divisor of row_begin, one is looked for
+// and fills it.
 void reproject_rows(const ReprojectionSource& source, const View& view, const GuideLattice& lattice, uint32_t row_begin,
-                    uint32_t row_end, ImageRgba32f& out) noexcept;
+                    uint32_t row_end, ImageRgba32f& out, uint32_t step = 1) noexcept;
 
 // Rows of a picture to look at: out = image, which the film was resolved to, led over from what was reprojected. A
 // pixel needs most_reprojected_samples of its own until nothing is left of that.

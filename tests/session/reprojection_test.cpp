@@ -63,11 +63,11 @@ struct Judged {
 };
 
 // Judges by colour, away from edges, where a pixel shows two surfaces.
-Judged judge(const View& before, const View& after, uint32_t stride) {
+Judged judge(const View& before, const View& after, uint32_t stride, uint32_t step = 1) {
     const Film old = film_of(before, 4), truth = film_of(after, 4);
     const GuideLattice guides = guides_of(before, 1);
     ImageRgba32f out(static_cast<int>(after.extent.x), static_cast<int>(after.extent.y));
-    reproject_rows({&old, &guides, before}, after, guides_of(after, stride), 0, after.extent.y, out);
+    reproject_rows({&old, &guides, before}, after, guides_of(after, stride), 0, after.extent.y, out, step);
     size_t shown = 0, wrong = 0, all = 0;
     for (uint32_t y = 0; y < after.extent.y; ++y) {
         for (uint32_t x = 0; x < after.extent.x; ++x) {
@@ -95,6 +95,14 @@ TEST(Reprojection, ASmallMoveKeepsNearlyEverythingAndShowsNothingWrong) {
         const Judged moved = judge(view_from(0), view_from(0.15f, 1.3f), stride);
         EXPECT_GT(moved.shown, 0.9) << stride;
         EXPECT_LT(moved.wrong, 0.003) << stride;
+    }
+}
+
+TEST(Reprojection, SquaresOfPixelsFillThePictureToo) {
+    for (const uint32_t step : {2u, 4u, 8u}) {
+        const Judged moved = judge(view_from(0), view_from(0.15f, 1.3f), 5, step);
+        EXPECT_GT(moved.shown, 0.9) << step;
+        EXPECT_LT(moved.wrong, 0.01 * step) << step;
     }
 }
 
