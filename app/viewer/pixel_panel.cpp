@@ -104,7 +104,7 @@ void ledger_rows(const ViewerModel& model, const PixelLedger& ledger) {
 // Segments of a path in points of the window.
 class Overlay {
   public:
-    Overlay(const ViewerModel& model, const View& view) : model_(model), view_(view) {}
+    explicit Overlay(const View& view) : view_(view) {}
 
     void line(const Vec3& a, const Vec3& b, ImU32 color, float width) {
         std::optional<ImVec2> from = point(a), to = point(b);
@@ -143,7 +143,6 @@ class Overlay {
         return ImVec2(at.x, at.y);
     }
 
-    const ViewerModel& model_;
     const View& view_;
     ImDrawList* draw_ = ImGui::GetBackgroundDrawList();
 };
@@ -153,7 +152,7 @@ class Overlay {
 void draw_path(const ViewerModel& model) {
     if (!model.inspection || !model.inspection->ledger) return;
     const std::vector<LedgerVertex>& vertices = model.inspection->ledger->path.vertices;
-    Overlay overlay(model, model.inspection->view);
+    Overlay overlay(model.inspection->view);
     for (size_t i = 0; i < vertices.size(); ++i) {
         if (i > 0) overlay.line(vertices[i - 1].position, vertices[i].position, path_color, 1.6f);
         if (luminance(vertices[i].connected) > 0)
