@@ -87,6 +87,15 @@ TEST(KeptViews, OneThatHasAllItsSamplesIsThereAtOnce) {
     EXPECT_TRUE(same_bits(first, again));
     EXPECT_EQ(again.rays, first.rays) << "rays were traced anew";
     EXPECT_EQ(again.history.points().size(), first.history.points().size());
+
+    // Where it is to begin anew it does, with the same samples.
+    session.submit(request_from(world, -1, 8));
+    finished(session);
+    RenderRequest anew = request_from(world, 1, 8);
+    anew.resumes = false;
+    session.submit(anew);
+    EXPECT_TRUE(same_bits(first, finished(session)));
+    EXPECT_EQ(session.status().resumed_samples, 0u);
 }
 
 TEST(KeptViews, AnotherWorldSettingOrLensIsAnotherView) {
