@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "app/viewer/environment_files.h"
 #include "app/viewer/panels.h"
 
 namespace candela {
@@ -59,11 +60,23 @@ void camera_section(ViewerModel& model, PanelEdits& edits) {
 void light_section(ViewerModel& model, PanelEdits& edits) {
     if (!ImGui::CollapsingHeader("Environment", ImGuiTreeNodeFlags_DefaultOpen)) return;
     if (model.job.environment == nullptr) {
-        ImGui::TextDisabled("none: drop an .hdr or .exr file");
+        ImGui::TextDisabled("none: choose or drop one");
     } else {
         edits.environment |= ImGui::SliderFloat("turn", &model.options.hdri_rotation_degrees, -180, 180, "%.0f°");
         edits.environment |=
             ImGui::SliderFloat("intensity", &model.options.hdri_intensity, 0, 10, "%.2f", ImGuiSliderFlags_Logarithmic);
+    }
+    const std::string now = model.options.hdri.empty() ? "choose" : file_name(model.options.hdri);
+    if (ImGui::BeginCombo("file", now.c_str())) {
+        // Looked for when the list opens.
+        if (ImGui::IsWindowAppearing())
+            model.environment_files = environment_files(model.job.scene_path, model.options.hdri);
+        for (const std::string& path : model.environment_files) {
+            ImGui::PushID(path.c_str());
+            if (ImGui::Selectable(file_name(path).c_str(), path == model.options.hdri)) edits.environment_file = path;
+            ImGui::PopID();
+        }
+        ImGui::EndCombo();
     }
     constexpr const char* backgrounds[] = {"environment", "colour", "transparent"};
     IntegratorSettings& settings = model.options.integrator;

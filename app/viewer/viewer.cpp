@@ -469,7 +469,8 @@ void Viewer::apply(const PanelEdits& edits) {
     if (edits.step_view != 0) step_view(edits.step_view);
     if (edits.before_edit) history_.add(*edits.before_edit);
     if (edits.scene_edited) scene_dirty_ = true;
-    if (edits.environment) environment_dirty_ = true;
+    if (edits.environment_file) dropped_environment_ = *edits.environment_file;
+    if (edits.environment || edits.environment_file) environment_dirty_ = true;
     if (edits.toggle_pause) toggle_pause();
     if (edits.toggle_play) toggle_play();
     if (edits.animation) choose_animation_shown(*edits.animation);

@@ -59,6 +59,7 @@ struct ViewerModel {
     std::vector<Material> materials;
     std::vector<PunctualLight> punctual_lights;
     uint32_t edited_material = 0, edited_light = 0;  // that the panel shows
+    std::vector<std::string> environment_files;      // that the panel offers
     bool edit_continues = false;                     // something is being dragged: no new step of the history
     std::optional<Inspection> inspection;            // of the pixel that was clicked at
 
@@ -90,9 +91,10 @@ struct ViewerModel {
 
 // What a panel has changed.
 struct PanelEdits {
-    bool view = false;                    // the camera
-    bool settings = false;                // how it is rendered: restarts
-    bool environment = false;             // a new world off-thread
+    bool view = false;         // the camera
+    bool settings = false;     // how it is rendered: restarts
+    bool environment = false;  // a new world off-thread
+    std::optional<std::string> environment_file;
     bool tone = false;                    // only drawn anew
     bool map = false;                     // another map, or none
     bool denoise = false;                 // on or off

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A pixel under the glass, and edits of the scene with their undoing.
+#include <fstream>
+
+#include "app/viewer/environment_files.h"
 #include "renderer/integrator/ledger.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/viewer/viewer_fixture.h"
 
 namespace candela {
@@ -92,6 +96,28 @@ TEST_F(ViewerTest, EditsOfMaterialsKeepTheGeometryAndAreUndone) {
     EXPECT_EQ(viewer_->frame()->image.pixels(), blue.pixels());
     press(Key::z, ctrl_shift);
     EXPECT_EQ(model().notice, "nothing was undone");
+}
+
+TEST_F(ViewerTest, AnEnvironmentIsChosenAmongThoseThatLieNear) {
+    const test::TemporaryFolder folder;
+    std::filesystem::copy("assets/sky.hdr", folder.path() / "b.hdr");
+    std::ofstream(folder.path() / "a.EXR");
+    std::ofstream(folder.path() / "c.png");
+    const std::vector<std::string> files = environment_files("assets/cornell_box.glb", (folder.path() / "x").string());
+    ASSERT_GE(files.size(), 3u);
+    EXPECT_EQ(files[0], (folder.path() / "a.EXR").string());
+    EXPECT_EQ(files[1], (folder.path() / "b.hdr").string());
+    EXPECT_EQ(std::filesystem::path(files[2]).filename(), "sky.hdr");
+    EXPECT_GT(environment_files("", "").size(), 0u);
+
+    start(options_for("assets/cornell_box.glb"));
+    const ImageRgba32f before = viewer_->frame()->image;
+    PanelEdits edits;
+    edits.environment_file = files[1];
+    viewer_->apply(edits);
+    finish();
+    EXPECT_EQ(model().options.hdri, files[1]);
+    EXPECT_NE(viewer_->frame()->image.pixels(), before.pixels());
 }
 
 TEST_F(ViewerTest, MovesOfTheCameraAreUndoneToo) {
