@@ -72,8 +72,11 @@ Slice Schedule::next(uint32_t tiles) {
 uint32_t choose_first_stride(Vec2u extent, double seconds_per_path, double target_seconds) {
     if (!(seconds_per_path > 0)) return 8;
     uint32_t stride = 1;
-    const auto along = [&](uint32_t size) { return static_cast<double>((size + stride - 1) / stride); };
-    while (stride < coarsest_stride && along(extent.x) * along(extent.y) * seconds_per_path > target_seconds)
+    const auto points = [&] {
+        const Vec2u along = (extent + stride - 1u) / stride;
+        return along.x * along.y;
+    };
+    while (stride < coarsest_stride && points() * seconds_per_path > target_seconds)
         stride *= 2;
     return stride;
 }
