@@ -19,12 +19,14 @@ std::string comparison_words(const ViewerModel& model) {
     const IntegratorSettings other = model.comparison.settings.in(settings);
     const double a = model.film.relative_error, b = model.comparison.film.relative_error;
     if (!(a > 0) || !(b > 0) || !std::isfinite(a) || !std::isfinite(b)) return "";
-    // An error that falls with the root of the time.
     const double ratio = std::max(a, b) / std::min(a, b);
-    return fmt::format("{}: {} the error of {}, as if {} the time",
-                       words_of(a > b ? settings : other, a > b ? other : settings), fmt::format("{:.3g} times", ratio),
-                       words_of(a > b ? other : settings, a > b ? settings : other),
-                       fmt::format("with {:.2g} of", 1 / (ratio * ratio)));
+    const std::string worse = words_of(a > b ? settings : other, a > b ? other : settings),
+                      better = words_of(a > b ? other : settings, a > b ? settings : other);
+    std::string words = fmt::format("{}: {:.3g} times the error of {}", worse, ratio, better);
+    // Errors fall with the root of the time, which limits of samples may have made unequal.
+    const double seconds = model.status.render_seconds, others = model.comparison.status.render_seconds;
+    if (std::abs(seconds - others) > 0.2 * std::min(seconds, others)) return words;
+    return words + fmt::format(", as if with {:.2g} of the time", 1 / (ratio * ratio));
 }
 
 void compare_section(ViewerModel& model, PanelEdits& edits) {
