@@ -121,6 +121,7 @@ void add_render_options(CLI::App& command, RenderOptions& options, RawRenderOpti
         {"mis", Estimator::mis}, {"light", Estimator::light}, {"bsdf", Estimator::bsdf}};
     const std::map<std::string, SamplerKind> samplers{{"sobol", SamplerKind::sobol},
                                                       {"independent", SamplerKind::independent}};
+    const std::map<std::string, bool> path_reuse{{"auto", true}, {"off", false}};
     const std::map<std::string, PixelFilter> filters{{"blackman-harris", PixelFilter::blackman_harris},
                                                      {"box", PixelFilter::box}};
     const std::map<std::string, ToneCurve> curves{{"linear", ToneCurve::linear},
@@ -167,6 +168,8 @@ void add_render_options(CLI::App& command, RenderOptions& options, RawRenderOpti
     take_one_of(samplers, command.add_option("--sampler", options.integrator.sampler, "sobol or independent (sobol)"));
     take_one_of(filters,
                 command.add_option("--filter", options.integrator.filter, "blackman-harris or box (blackman-harris)"));
+    take_one_of(path_reuse, command.add_option("--path-reuse", options.integrator.reuse_paths,
+                                               "auto: neighbours share paths where that pays; or off (auto)"));
     command.add_option("--clamp-indirect", options.integrator.clamp_indirect, "firefly clamp; biased (off)")
         ->check(CLI::NonNegativeNumber)
         ->type_name("V");

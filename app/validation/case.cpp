@@ -33,7 +33,8 @@ std::function<Probe(const Vec2&)> on_plane(double x) {
 const std::vector<ValidationTechnique> every_technique = {{Estimator::mis, SamplerKind::sobol},
                                                           {Estimator::light, SamplerKind::sobol},
                                                           {Estimator::bsdf, SamplerKind::sobol},
-                                                          {Estimator::mis, SamplerKind::independent}};
+                                                          {Estimator::mis, SamplerKind::independent},
+                                                          {Estimator::mis, SamplerKind::sobol, true}};
 // A light without extent is found by sampling it, whatever the estimator.
 // Paths that few samples take need more of them than anyone wants to wait for, unless they are spread well.
 const std::vector<ValidationTechnique> sobol_techniques = {{Estimator::mis, SamplerKind::sobol},
@@ -272,7 +273,8 @@ void add_camera(std::vector<ValidationCase>& cases) {
 std::string name_of(const ValidationTechnique& technique) {
     const char* estimators[] = {"mis", "light", "bsdf"};
     return std::string(estimators[static_cast<int>(technique.estimator)]) +
-           (technique.sampler == SamplerKind::sobol ? ", sobol" : ", independent");
+           (technique.sampler == SamplerKind::sobol ? ", sobol" : ", independent") +
+           (technique.shares_paths ? ", shared paths" : "");
 }
 
 double strip_light_radiance(double p) {

@@ -14,6 +14,7 @@ namespace candela {
 struct ValidationTechnique {
     Estimator estimator = Estimator::mis;
     SamplerKind sampler = SamplerKind::sobol;
+    bool shares_paths = false;  // between the pixels of a picture of the probe
 };
 
 std::string name_of(const ValidationTechnique& technique);

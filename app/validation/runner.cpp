@@ -72,16 +72,30 @@ double ValidationRunner::batch(const World& world, const ValidationCase& c, cons
     settings.seed = seed;
     RayCounts counts;
     double sum = 0;
-    for (uint32_t i = 0; i < samples; ++i) {
-        // Where to look comes from a sequence of its own, so that it does not share dimensions with the path.
-        Sampler where(technique.sampler, Vec2u(7919, 104729), i, hash_combine(seed, 0x5eed));
-        const Probe probe = c.probe(where.next_2d());
-        const Vec3 radiance = trace_sample(world, probe.view, settings, {0, 0, i}, counts).radiance;
+    const auto add = [&](const Vec3& radiance, double weight) {
         if (is_finite(radiance)) {
-            sum += static_cast<double>(luminance(radiance)) * probe.weight;
+            sum += static_cast<double>(luminance(radiance)) * weight;
         } else {
             ++non_finite;
         }
+    };
+    // Those who share paths see one place from the pixels of a few groups.
+    const Vec2u extent = technique.shares_paths ? Vec2u(8, 4) : Vec2u(1);
+    std::vector<PixelSample> pixels(size_t{extent.x} * extent.y);
+    std::vector<RadianceSample> traced(pixels.size());
+    for (uint32_t i = 0; i < samples / pixels.size(); ++i) {
+        // Where to look comes from a sequence of its own, so that it does not share dimensions with the path.
+        Sampler where(technique.sampler, Vec2u(7919, 104729), i, hash_combine(seed, 0x5eed));
+        Probe probe = c.probe(where.next_2d());
+        probe.view.extent = extent;
+        for (uint32_t k = 0; PixelSample & pixel : pixels) {
+            pixel = {static_cast<uint16_t>(k % extent.x), static_cast<uint16_t>(k / extent.x), i,
+                     technique.shares_paths ? PathSharing::group : PathSharing::none};
+            ++k;
+        }
+        trace_samples(world, probe.view, settings, pixels, traced, counts);
+        for (const RadianceSample& sample : traced)
+            add(sample.radiance, probe.weight);
     }
     return sum / samples;
 }

@@ -95,6 +95,11 @@ void render_section(ViewerModel& model, PanelEdits& edits) {
     edits.settings |= choose("estimator", settings.estimator, estimators);
     edits.settings |= choose("sampler", settings.sampler, samplers);
     edits.settings |= choose("filter", settings.filter, filters);
+    bool reuse_paths = settings.reuse_paths;
+    if (ImGui::Checkbox("share paths between pixels", &reuse_paths)) {
+        settings.reuse_paths = reuse_paths;
+        edits.settings = true;
+    }
     int depth = static_cast<int>(settings.max_depth);
     if (ImGui::SliderInt("depth", &depth, 0, 16, depth == 0 ? "no limit" : "%d (biased)",
                          ImGuiSliderFlags_AlwaysClamp)) {

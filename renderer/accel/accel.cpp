@@ -61,7 +61,7 @@ void filter_shadow_hit(const RTCFilterFunctionNArguments* arguments) {
     const Candidate at = candidate_of(*query.accel, *arguments);
     const Accel::Impl& accel = *query.accel;
     const Vec3 passes =
-        accel.transmittance != nullptr
+        accel.transmittance != nullptr && !query.opacity_alone
             ? accel.transmittance(accel.opacity_user, at.surface, at.triangle, at.u, at.v, query.direction)
             : Vec3(1.0f - accel.opacity(accel.opacity_user, at.surface, at.triangle, at.u, at.v));
     for (int i = 0; i < 3; ++i)
@@ -95,14 +95,16 @@ Hit Accel::intersect(const Ray& ray, uint32_t alpha_seed) const noexcept {
     return hit;
 }
 
-Vec3 Accel::transmittance(const Ray& ray) const noexcept {
-    const Impl& accel = *impl_;
+namespace {
+
+Vec3 trace_shadow(const Accel::Impl& accel, const Ray& ray, bool opacity_alone) {
     if (!is_traceable(accel, ray)) return Vec3(1);
 
     OpacityQuery query;
     embree::init_context(query.embree);
     query.accel = &accel;
     query.direction = ray.direction;
+    query.opacity_alone = opacity_alone;
     RTCRay shadow;
     fill_ray(shadow, ray);
     // Embree marks an occluded ray by tfar = -infinity; surfaces that let light pass are only in the product.
@@ -111,6 +113,20 @@ Vec3 Accel::transmittance(const Ray& ray) const noexcept {
         if (shadow.tfar < 0.0f) return Vec3(0);
     }
     return query.transmittance;
+}
+
+}  // namespace
+
+Vec3 Accel::transmittance(const Ray& ray) const noexcept {
+    return trace_shadow(*impl_, ray, false);
+}
+
+float Accel::passage(const Ray& ray) const noexcept {
+    return trace_shadow(*impl_, ray, true).x;
+}
+
+bool Accel::has_opacity() const noexcept {
+    return impl_->has_opacity;
 }
 
 Accel::Accel(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -115,6 +115,11 @@ class Accel {
     // The share of light that passes from origin to t_max: the product of the transmittances of the surfaces between.
     Vec3 transmittance(const Ray& ray) const noexcept;
 
+    // The chance that intersect() passes all surfaces from origin to t_max: the product of what their opacities leave.
+    float passage(const Ray& ray) const noexcept;
+    // Whether it may be anything but 0 and 1.
+    bool has_opacity() const noexcept;
+
     // The trees of AccelInput::fixed and of AccelInput::shapes, for the next Accel.
     std::shared_ptr<const AccelTree> fixed_tree() const;
     std::shared_ptr<const AccelTree> shape_tree(size_t shape) const;

@@ -31,7 +31,8 @@ struct AccelTree {
     std::shared_ptr<const void> owner, rest;
     uint64_t triangles = 0;
     Bounds3 bounds;
-    SceneHandle scene;  // last: dies before the buffers
+    bool has_opacity = false;  // a filter is set
+    SceneHandle scene;         // last: dies before the buffers
 };
 
 // Accels that can share trees: they have one Embree device. Trees of shapes that deform come back here when the last
@@ -107,6 +108,7 @@ struct Accel::Impl {
     TransmittanceFunction transmittance = nullptr;
     const void* opacity_user = nullptr;
     Bounds3 bounds;
+    bool has_opacity = false;  // a filter is set somewhere
     float origin_limit_squared = 0;
     float direction_limit_squared = 0;
     AccelWork work;
@@ -125,6 +127,7 @@ struct OpacityQuery {
     const Accel::Impl* accel = nullptr;
     uint32_t alpha_seed = 0;
     Vec3 direction{0};
+    bool opacity_alone = false;  // clear glass is not passed
     Vec3 transmittance{1.0f};
 };
 

@@ -63,7 +63,10 @@ std::unique_ptr<AccelTree> build_tree(AccelFamily& family, const AccelShape& sha
                                    sizeof(Vec3u), source.triangles.size());
         rtcSetGeometryMask(geometry, 0xffffffffu);
         if (deforms) rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
-        if (with_opacity && source.has_opacity) set_filters(geometry, true);
+        if (with_opacity && source.has_opacity) {
+            set_filters(geometry, true);
+            tree->has_opacity = true;
+        }
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(tree->scene.get(), geometry, i);
         rtcReleaseGeometry(geometry);
@@ -76,13 +79,16 @@ std::unique_ptr<AccelTree> build_tree(AccelFamily& family, const AccelShape& sha
 
 void refit_tree(AccelFamily& family, AccelTree& tree, const AccelShape& shape, bool with_opacity,
                 BuildProgress& progress) {
+    tree.has_opacity = false;
     for (uint32_t i = 0; i < shape.geometries.size(); ++i) {
         const AccelGeometry& source = shape.geometries[i];
         if (is_empty(source)) continue;
         RTCGeometry geometry = rtcGetGeometry(tree.scene.get(), i);
         set_positions(geometry, source.positions);
         rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
-        set_filters(geometry, with_opacity && source.has_opacity);
+        const bool has_opacity = with_opacity && source.has_opacity;
+        set_filters(geometry, has_opacity);
+        tree.has_opacity |= has_opacity;
         rtcCommitGeometry(geometry);
     }
     family.throw_if_failed();

@@ -126,6 +126,8 @@ void Accel::Impl::build(const AccelInput& input, const std::function<void(float)
     }
     if (all.cancelled()) throw AccelError("cancelled");
 
+    has_opacity = (fixed && fixed->has_opacity) ||
+                  std::any_of(shapes.begin(), shapes.end(), [](const auto& tree) { return tree->has_opacity; });
     fixed_surfaces = input.fixed_surfaces;
     fixed_scene = fixed && fixed->triangles > 0 ? fixed->scene.get() : nullptr;
     placed_scene = placement->scene.get();

@@ -73,6 +73,13 @@ BsdfStack make_stack(const Bsdf& bsdf, const Vec3& wo) noexcept {
     return out;
 }
 
+bool scatters_broadly(const Bsdf& bsdf, const BsdfStack& stack) noexcept {
+    const float* p = stack.probability;
+    const bool rough = p[specular_lobe] > 0.0f || p[glass_lobe] > 0.0f;
+    return p[diffuse_lobe] > 0.0f || p[transmitted_lobe] > 0.0f || p[sheen_lobe] > 0.0f ||
+           (rough && bsdf.alpha.x > 0.0f) || (p[coat_lobe] > 0.0f && bsdf.coat_alpha > 0.0f);
+}
+
 BsdfEval eval(const Bsdf& bsdf, const BsdfStack& stack, const Vec3& wo, const Vec3& wi) noexcept {
     BsdfEval out;
     if (!reflects(wi) && !bsdf.transmits()) return out;

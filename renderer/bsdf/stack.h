@@ -32,6 +32,9 @@ struct BsdfStack {
 // wo.z > 0.
 BsdfStack make_stack(const Bsdf& bsdf, const Vec3& wo) noexcept;
 
+// Whether sample() may draw other directions than deltas.
+bool scatters_broadly(const Bsdf& bsdf, const BsdfStack& stack) noexcept;
+
 // As the functions of bsdf.h that make the stack themselves.
 BsdfSample sample(const Bsdf& bsdf, const BsdfStack& stack, const Vec3& wo, float u_lobe, const Vec2& u) noexcept;
 BsdfEval eval(const Bsdf& bsdf, const BsdfStack& stack, const Vec3& wo, const Vec3& wi) noexcept;

@@ -38,7 +38,7 @@ Ledger trace_ledger(const World& world, const View& view, const IntegratorSettin
         const PathState before = path;
         const Hit hit = extend(world, path, counts);
         const VertexPoints u = draw_vertex(path);
-        const ShadowRequest light = shade(world, settings, hit, u, path);
+        const ShadowRequest light = shade(world, settings, hit, u, path, nullptr);
         LedgerVertex vertex;
         vertex.found = path.radiance - before.radiance;
         if (hit.valid()) {
@@ -54,14 +54,14 @@ Ledger trace_ledger(const World& world, const View& view, const IntegratorSettin
         if (vertex.event == PathEvent::reflected || vertex.event == PathEvent::transmitted) vertex.pdf = path.bsdf_pdf;
         if (light.active) {
             const Vec3 unconnected = path.radiance;
-            connect(world, light, path, counts);
+            connect(world, light, path, nullptr, counts);
             vertex.connected = path.radiance - unconnected;
             vertex.has_connection = true;
             vertex.connection_end = light.ray.origin + std::min(light.ray.t_max, far_m) * light.ray.direction;
         }
         out.vertices.push_back(vertex);
     }
-    out.radiance = finish(path).radiance;
+    out.radiance = finish(path, nullptr).radiance;
     return out;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What happened to one sample of a pixel, vertex by vertex: the firefly's ledger.
+// It is the path that the pixel traced itself; what neighbours share with it (path_reuse.h) is not in it.
 #pragma once
 
 #include "renderer/integrator/integrator.h"

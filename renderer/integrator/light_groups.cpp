@@ -96,16 +96,16 @@ bool trace_grouped(const World& world, const View& view, const IntegratorSetting
             const Hit hit = extend(world, path, counts);
             const VertexPoints u = draw_vertex(path);
             const uint32_t depth = path.depth;
-            const ShadowRequest light = shade(world, settings, hit, u, path);
+            const ShadowRequest light = shade(world, settings, hit, u, path, nullptr);
             take(hit.valid() ? groups.of_material[world.surfaces[hit.surface].material]
                              : group_of_miss(groups, settings, depth));
             if (light.active) {
-                connect(world, light, path, counts);
+                connect(world, light, path, nullptr, counts);
                 take(group_of_light(world, groups, light));
             }
         }
         path.radiance = total;
-        out[i] = finish(path);
+        out[i] = finish(path, nullptr);
     }
     return true;
 }

@@ -9,9 +9,10 @@
 namespace candela {
 
 struct PathState {
-    Ray ray;             // the next segment
-    Vec3 throughput{1};  // product of the weights so far
-    Vec3 radiance{0};    // gathered so far
+    Ray ray;                    // the next segment
+    Vec3 throughput{1};         // product of the weights so far; of a shared path, since its second vertex
+    Vec3 shared_throughput{1};  // the product up to there
+    Vec3 radiance{0};           // gathered so far
     float alpha = 1;
     Sampler sampler;
     MediumSet media;          // what the segment runs through
@@ -27,6 +28,7 @@ struct PathState {
     uint32_t segments = 0;    // surfaces met so far, those that were passed straight included
     uint32_t traced = 0;      // rays followed so far, and connections to lights
     uint32_t shadow_rays = 0;
+    bool shared = false;     // radiance is what comes from the second vertex on
     bool from_delta = true;  // no light sample could have found ray.direction: camera rays and delta lobes
     bool alive = true;
 };
@@ -36,6 +38,7 @@ struct ShadowRequest {
     Ray ray;  // up to just before the light
     Vec3 contribution{0};
     bool active = false;
+    bool shared = false;  // the contribution is what arrives at the second vertex of a path that others share
     // Which light: a placed primitive or a punctual light; neither: the environment.
     uint32_t light_surface = invalid_index, punctual = invalid_index;
 };

@@ -23,8 +23,11 @@ struct IntegratorSettings {
     BackgroundKind background = BackgroundKind::environment;
     Vec3 background_color{0};
     bool russian_roulette = true;
+    bool reuse_paths = true;      // between neighbouring pixels, where a session finds that it pays (path_reuse.h)
     bool filter_textures = true;  // over what a sample stands for (texture.h); false: every lookup at level 0
 
+    // A clamp holds for the light of one path.
+    bool may_reuse_paths() const { return reuse_paths && !(clamp_indirect > 0.0f); }
     bool biased() const { return clamp_indirect > 0.0f || max_depth > 0; }
     bool operator==(const IntegratorSettings&) const = default;
 };

@@ -55,7 +55,19 @@ LightCoverage coverage_of(const IntegratorSettings& settings) {
     return settings.estimator == Estimator::mis ? LightCoverage::beside_directions : LightCoverage::complete;
 }
 
-void shade_miss(const World& world, const IntegratorSettings& settings, PathState& path) {
+// Emission that the path ran into, weighted against the chance that a light sample finds it. Where others share the
+// second vertex, the weight is for each of them to say.
+void gather_found(const IntegratorSettings& settings, const Vec3& emission, float light_pdf, PathState& path,
+                  ReusablePath* reuse) {
+    if (path.shared && path.depth == 2 && reuse->found_count < reuse->found.size()) {
+        reuse->found[reuse->found_count++] = {path.throughput * emission, light_pdf};
+        return;
+    }
+    const float weight = found_light_weight(settings, path, light_pdf);
+    if (weight > 0.0f) gather(settings, path, weight * emission, path.depth, path.radiance);
+}
+
+void shade_miss(const World& world, const IntegratorSettings& settings, PathState& path, ReusablePath* reuse) {
     path.alive = false;
     if (path.depth == 0 && settings.background != BackgroundKind::environment) {
         if (settings.background == BackgroundKind::transparent) {
@@ -68,9 +80,14 @@ void shade_miss(const World& world, const IntegratorSettings& settings, PathStat
     if (!world.lights.environment) return;
     const Vec3 wi = path.ray.direction;
     const float light_pdf = path.from_delta ? 0.0f : environment_light_pdf(world.lights, coverage_of(settings), wi);
-    const float weight = found_light_weight(settings, path, light_pdf);
-    if (weight > 0.0f)
-        gather(settings, path, weight * world.lights.environment->radiance(wi), path.depth, path.radiance);
+    const Vec3 radiance = world.lights.environment->radiance(wi);
+    if (reuse != nullptr && reuse->has_first && path.depth == 1 && path.segments == 1 && !path.from_delta) {
+        reuse->escapes = true;
+        reuse->escape_direction = wi;
+        reuse->found[reuse->found_count++] = {radiance, light_pdf};
+        return;
+    }
+    gather_found(settings, radiance, light_pdf, path, reuse);
 }
 
 // What a body leaves of light over a distance, by Beer-Lambert's law. A body without end absorbs nothing: its mesh is
@@ -153,18 +170,14 @@ Ray shadow_ray(const World& world, const SurfacePoint& point, const LightSample&
         target = offset_ray_origin(cell.p0 + at.x * cell.edge1 + at.y * cell.edge2,
                                    glm::dot(normal, light.wi) < 0.0f ? normal : -normal, error_m);
     }
-    const Vec3 segment = target - ray.origin;
-    const float length = glm::length(segment);
-    if (length > 0.0f) ray.direction = segment / length;
-    ray.t_max = length;
-    return ray;
+    return segment_between(ray.origin, target);
 }
 
 // Next-event estimation: one light, weighted against the chance that a BSDF sample finds it.
 ShadowRequest plan_connection(const World& world, const IntegratorSettings& settings, const SurfacePoint& point,
                               const LightReceiver& receiver, const Boundary& boundary, const Bsdf& bsdf,
                               const BsdfStack& stack, const Vec3& wo, float u_pick, const Vec2& u,
-                              const PathState& path) {
+                              const PathState& path, ReusablePath* second_of) {
     ShadowRequest request;
     const LightSample light = sample_light(world.lights, receiver, coverage_of(settings), u_pick, u);
     if (!(light.pdf > 0.0f)) return request;
@@ -174,12 +187,24 @@ ShadowRequest plan_connection(const World& world, const IntegratorSettings& sett
     const bool transmitted = wi.z < 0.0f;
     if ((glm::dot(light.wi, point.geometric_normal) <= 0.0f) != transmitted) return request;
 
+    Vec3 arriving = light.weight;
+    if (light.surface != invalid_index) {
+        arriving *= emitted_radiance(world, light.surface, light.triangle, light.u, light.v);
+    }
+    // How much of it those scatter who share the vertex, each of them has to find out.
+    if (second_of != nullptr) {
+        if (is_black(arriving)) return request;
+        second_of->light_wi = wi;
+        second_of->light_pdf = light.pdf;
+        second_of->light_is_delta = light.is_delta;
+        request.contribution = arriving;
+        request.ray = shadow_ray(world, point, light);
+        request.active = request.shared = true;
+        return request;
+    }
     const BsdfEval scattered = eval(bsdf, stack, wo, wi);
     if (is_black(scattered.value)) return request;
-    Vec3 contribution = scattered.value * light.weight;
-    if (light.surface != invalid_index) {
-        contribution *= emitted_radiance(world, light.surface, light.triangle, light.u, light.v);
-    }
+    Vec3 contribution = scattered.value * arriving;
     const MediumSet& media = transmitted ? boundary.far : boundary.near;
     if (!media.empty()) contribution *= transmittance_of(world, media.present(world), light.distance);
     if (!light.is_delta && settings.estimator == Estimator::mis) contribution *= mis_weight(light.pdf, scattered.pdf);
@@ -191,6 +216,25 @@ ShadowRequest plan_connection(const World& world, const IntegratorSettings& sett
     request.light_surface = light.surface;
     request.punctual = light.punctual;
     return request;
+}
+
+// Whether others can be connected to the first vertex of the path: light scatters there in no body, and not by deltas
+// alone.
+bool is_reusable_first(const World& world, const SurfacePoint& point, const BsdfStack& stack, const Bsdf& bsdf,
+                       const PathState& path) {
+    return path.depth == 0 && path.segments == 0 && path.media.empty() &&
+           world.surfaces[point.surface].medium == invalid_index && scatters_broadly(bsdf, stack);
+}
+
+// Whether the second vertex looks the same to others: its frame and material must not depend on where they are.
+bool is_reusable_second(const World& world, const SurfacePoint& point, const Bsdf& bsdf, const PathState& path) {
+    return path.depth == 1 && path.segments == 1 && !path.from_delta && path.media.empty() &&
+           world.surfaces[point.surface].medium == invalid_index && !point.bent && bsdf.coat == 0.0f &&
+           world.materials[point.material].iridescence.factor == 0.0f;
+}
+
+PathVertex vertex_at(const SurfacePoint& point, const Bsdf& bsdf) {
+    return {point.position, point.geometric_normal, point.error_m, point.shading, bsdf};
 }
 
 }  // namespace
@@ -241,10 +285,10 @@ VertexPoints vertex_points(const PointBatch& batch, size_t i) noexcept {
 }
 
 ShadowRequest shade(const World& world, const IntegratorSettings& settings, const Hit& hit, const VertexPoints& u,
-                    PathState& path) noexcept {
+                    PathState& path, ReusablePath* reuse) noexcept {
     ++path.traced;
     if (!hit.valid()) {
-        shade_miss(world, settings, path);
+        shade_miss(world, settings, path, reuse);
         return {};
     }
     const Vec3 wo_world = -path.ray.direction;
@@ -275,8 +319,7 @@ ShadowRequest shade(const World& world, const IntegratorSettings& settings, cons
             light_pdf = triangle_light_pdf(world.lights, cell, path.vertex, coverage_of(settings), path.ray.direction,
                                            glm::length(point.position - path.vertex.position));
         }
-        const float weight = found_light_weight(settings, path, light_pdf);
-        if (weight > 0.0f) gather(settings, path, weight * material.emission, path.depth, path.radiance);
+        gather_found(settings, material.emission, light_pdf, path, reuse);
     }
     if (material.unlit) {
         path.alive = false;
@@ -293,9 +336,21 @@ ShadowRequest shade(const World& world, const IntegratorSettings& settings, cons
     }
     const BsdfStack stack = make_stack(material.bsdf, wo);
     const LightReceiver receiver{point.position, point.shading.normal, material.bsdf.transmits()};
+    if (reuse != nullptr && may_scatter && is_reusable_first(world, point, stack, material.bsdf, path)) {
+        reuse->has_first = true;
+        reuse->first = vertex_at(point, material.bsdf);
+        reuse->first_stack = stack;
+        reuse->first_wo = wo;
+    }
+    const bool is_second =
+        reuse != nullptr && reuse->has_first && may_scatter && is_reusable_second(world, point, material.bsdf, path);
+    if (is_second) {
+        reuse->has_second = true;
+        reuse->second = vertex_at(point, material.bsdf);
+    }
     if (may_scatter && !world.lights.empty()) {
         request = plan_connection(world, settings, point, receiver, boundary, material.bsdf, stack, wo, u.light_choice,
-                                  u.light, path);
+                                  u.light, path, is_second ? reuse : nullptr);
     }
 
     // Draw the next direction. Going straight through thin glass is no scattering: sampled lights shine through it too.
@@ -306,7 +361,18 @@ ShadowRequest shade(const World& world, const IntegratorSettings& settings, cons
                  (glm::dot(wi, point.geometric_normal) < 0.0f) == transmitted &&
                  (may_scatter || scattered.is_straight) && path.segments < most_segments;
     if (!path.alive) return request;
-    path.throughput *= scattered.weight;
+    if (is_second && !scattered.is_delta) {
+        // From here on light is gathered for all who share the vertex.
+        reuse->goes_on = true;
+        reuse->onward_wi = scattered.wi;
+        reuse->own = path.radiance;
+        path.radiance = Vec3(0);
+        path.shared_throughput = path.throughput * scattered.weight;
+        path.throughput = Vec3(1);
+        path.shared = true;
+    } else {
+        path.throughput *= scattered.weight;
+    }
     if (scattered.is_straight) {
         pass_straight(point, path);
     } else {
@@ -329,7 +395,7 @@ ShadowRequest shade(const World& world, const IntegratorSettings& settings, cons
 
     // Russian roulette: a path lives on by the share of light that it still carries.
     if (settings.russian_roulette && path.segments >= roulette_depth) {
-        const float carried = max_component(glm::abs(path.throughput)) * path.eta_scale;
+        const float carried = max_component(glm::abs(path.shared_throughput * path.throughput)) * path.eta_scale;
         const float survival = std::min(survival_per_throughput * carried, max_survival);
         if (u.roulette >= survival) {
             path.alive = false;
@@ -340,10 +406,20 @@ ShadowRequest shade(const World& world, const IntegratorSettings& settings, cons
     return request;
 }
 
-void connect(const World& world, const ShadowRequest& request, PathState& path, RayCounts& counts) noexcept {
+void connect(const World& world, const ShadowRequest& request, PathState& path, ReusablePath* reuse,
+             RayCounts& counts) noexcept {
     ++counts.shadow;
     ++path.shadow_rays;
-    path.radiance += world.accel->transmittance(request.ray) * request.contribution;
+    (request.shared ? reuse->light : path.radiance) += world.accel->transmittance(request.ray) * request.contribution;
+}
+
+RadianceSample finish(const PathState& path, ReusablePath* reuse) noexcept {
+    RadianceSample out{path.radiance, path.alpha, path.traced, path.shadow_rays};
+    if (path.shared) {
+        reuse->later = path.radiance;
+        out.radiance = reuse->own;
+    }
+    return out;
 }
 
 }  // namespace candela

@@ -3,6 +3,7 @@
 // begin, (extend, draw, shade, connect)*, finish — for one path after the other or for a batch of paths step by step.
 #pragma once
 
+#include "renderer/integrator/path_reuse.h"
 #include "renderer/integrator/path_state.h"
 
 namespace candela {
@@ -29,14 +30,15 @@ VertexPoints draw_vertex(PathState& path) noexcept;
 VertexPoints vertex_points(const PointBatch& batch, size_t i) noexcept;
 
 // At the end of the segment: gathers emission, plans a light connection, draws the next direction or ends the path.
+// reuse: where to put what others may share of the path; null: nobody shares it.
 ShadowRequest shade(const World& world, const IntegratorSettings& settings, const Hit& hit, const VertexPoints& u,
-                    PathState& path) noexcept;
+                    PathState& path, ReusablePath* reuse) noexcept;
 
 // Adds the planned light if it comes through.
-void connect(const World& world, const ShadowRequest& request, PathState& path, RayCounts& counts) noexcept;
+void connect(const World& world, const ShadowRequest& request, PathState& path, ReusablePath* reuse,
+             RayCounts& counts) noexcept;
 
-inline RadianceSample finish(const PathState& path) {
-    return {path.radiance, path.alpha, path.traced, path.shadow_rays};
-}
+// What the path itself has gathered; with what is shared, reuse is complete.
+RadianceSample finish(const PathState& path, ReusablePath* reuse) noexcept;
 
 }  // namespace candela

@@ -33,6 +33,18 @@ inline Vec3 offset_ray_origin(const Vec3& p, const Vec3& n, float distance_m) {
     return moved + spacing * glm::abs(moved) * glm::sign(n);
 }
 
+// From one point to just before another. Both are moved off their surfaces, but a surface whose coordinates are zero
+// has no error of its own: what is left is the rounding of the length.
+inline Ray segment_between(const Vec3& from, const Vec3& to) {
+    const Vec3 segment = to - from;
+    const float length = glm::length(segment);
+    Ray ray;
+    ray.origin = from;
+    if (length > 0.0f) ray.direction = segment / length;
+    ray.t_max = length * (1.0f - 0x1p-20f);
+    return ray;
+}
+
 // A bound of those errors on a triangle: rounding in the interpolation and in the intersector is relative to the size
 // of the coordinates and edges that they add up (section 6.8.5 there), each along its axis. Cancellation makes the
 // constant larger than the handful of operations suggests.

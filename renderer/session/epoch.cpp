@@ -66,7 +66,8 @@ void RenderSession::Impl::start_anew() {
         const double frame = frame_seconds.load();
         const double rest = first_picture_share * frame - (anchor.serves(request) ? reproject_seconds : 0);
         const double lattice_seconds = std::clamp(rest, least_lattice_share * frame, first_lattice_share * frame);
-        now->schedule.emplace(request.view.extent, choose_first_stride(request.view.extent, cost, lattice_seconds));
+        now->schedule.emplace(request.view.extent, choose_first_stride(request.view.extent, cost, lattice_seconds),
+                              request.settings.may_reuse_paths() && groups == 0);
         // A headless render shows nothing before its end: its first frame may be interrupted.
         interruptible.store(!options.publish_frames);
     } catch (const std::bad_alloc&) {
@@ -135,7 +136,7 @@ void RenderSession::Impl::trace_slice() {
         WorkerTally& tally = tallies[worker];
         const bool first = !first_frame_out && options.publish_frames;
         for (uint32_t t = next.fetch_add(1); t < slice.size(); t = next.fetch_add(1)) {
-            list_tile(slice.pass, request.view.extent, slice.tile(t), tally.samples);
+            now->schedule->list(slice, slice.tile(t), tally.samples);
             // The first coarse pass is finished whatever happens, so that dragging always shows pictures.
             const std::atomic<uint64_t>* cancel = first ? nullptr : &work_token;
             if (!trace_tile(tally, cancel)) return;
@@ -147,6 +148,7 @@ void RenderSession::Impl::trace_slice() {
                               {traced.segments, traced.shadow_rays},
                               std::span<const Vec3>(tally.by_light).subspan(i * groups, groups));
             }
+            now->schedule->note(slice.tile(t), tally.samples, tally.radiance);
             tally.paths += tally.samples.size();
             traced_tiles[t] = 1;
         }

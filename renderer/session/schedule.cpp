@@ -23,7 +23,7 @@ uint32_t tile_count(const Pass& pass, Vec2u extent) {
     return tiles_along(extent.x, pass.stride) * tiles_along(extent.y, pass.stride);
 }
 
-void list_tile(const Pass& pass, Vec2u extent, uint32_t tile, std::vector<PixelSample>& out) {
+void list_tile(const Pass& pass, Vec2u extent, uint32_t tile, PathSharing sharing, std::vector<PixelSample>& out) {
     out.clear();
     const uint32_t across = tiles_along(extent.x, pass.stride);
     const uint32_t step = tile_step(pass.stride);
@@ -32,12 +32,13 @@ void list_tile(const Pass& pass, Vec2u extent, uint32_t tile, std::vector<PixelS
     for (uint32_t y = top; y < bottom; y += pass.stride) {
         for (uint32_t x = left; x < right; x += pass.stride) {
             if (pass.done_stride != 0 && x % pass.done_stride == 0 && y % pass.done_stride == 0) continue;
-            out.push_back({static_cast<uint16_t>(x), static_cast<uint16_t>(y), pass.sample_index});
+            out.push_back({static_cast<uint16_t>(x), static_cast<uint16_t>(y), pass.sample_index, sharing});
         }
     }
 }
 
-Schedule::Schedule(Vec2u extent, uint32_t first_stride) : extent_(extent), resolved_stride_(first_stride) {
+Schedule::Schedule(Vec2u extent, uint32_t first_stride, bool reuses) : extent_(extent), resolved_stride_(first_stride) {
+    if (reuses) reuse_plan_ = ReusePlan(extent);
     pass_.stride = first_stride;
 }
 
@@ -50,6 +51,8 @@ Slice Schedule::next(uint32_t tiles) {
     if (!rest_.tiles.empty()) return std::exchange(rest_, {});
     const uint32_t count = tile_count(pass_, extent_);
     Slice slice{pass_, tile_, count};
+    // The first samples of all pixels have shown where later ones share their paths.
+    if (pass_.sample_index == ReusePlan::first_planned && tile_ == 0) reuse_plan_.decide();
     if (first_pass_done_) slice.end_tile = std::min(count, tile_ + std::max(tiles, 1u));
     tile_ = slice.end_tile;
     if (tile_ < count) return slice;
@@ -67,6 +70,14 @@ Slice Schedule::next(uint32_t tiles) {
         complete_ = pass_.sample_index;
     }
     return slice;
+}
+
+void Schedule::list(const Slice& slice, uint32_t tile, std::vector<PixelSample>& out) const {
+    list_tile(slice.pass, extent_, tile, reuse_plan_.sharing(slice.pass.sample_index, tile), out);
+}
+
+void Schedule::note(uint32_t tile, std::span<const PixelSample> samples, std::span<const RadianceSample> traced) {
+    reuse_plan_.note(tile, samples, traced);
 }
 
 uint32_t choose_first_stride(Vec2u extent, double seconds_per_path, double target_seconds) {

@@ -7,7 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "renderer/integrator/integrator.h"
+#include "renderer/integrator/path_reuse.h"
+#include "renderer/session/reuse_plan.h"
 
 namespace candela {
 
@@ -20,12 +21,12 @@ struct Pass {
 
 // Of a coarse lattice they hold less, so that all workers have some of them.
 inline constexpr uint32_t tile_side = 16, coarse_tile_side = 8;  // lattice points
-static_assert(tile_side * tile_side <= max_batch);
+static_assert(tile_side * tile_side <= max_batch && tile_side == reuse_tile);
 inline constexpr uint32_t coarsest_stride = 64;
 
 uint32_t tile_count(const Pass& pass, Vec2u extent);
-// The pixels of tile number `tile`, row by row; appended to out, which is cleared first.
-void list_tile(const Pass& pass, Vec2u extent, uint32_t tile, std::vector<PixelSample>& out);
+// The pixels of tile number `tile`, row by row, in out.
+void list_tile(const Pass& pass, Vec2u extent, uint32_t tile, PathSharing sharing, std::vector<PixelSample>& out);
 
 // A part of a pass that workers share out among themselves; between slices they are parked.
 struct Slice {
@@ -41,14 +42,19 @@ struct Slice {
 // Walks through one epoch.
 class Schedule {
   public:
-    // first_stride: a power of two up to coarsest_stride.
-    Schedule(Vec2u extent, uint32_t first_stride);
+    // first_stride: a power of two up to coarsest_stride. reuses: paths may be shared.
+    Schedule(Vec2u extent, uint32_t first_stride, bool reuses);
 
     // The next slice of about that many tiles (at least one), never beyond its pass. The first pass comes whole:
     // nothing is shown before it.
     Slice next(uint32_t tiles);
     // Of the slice that was given out last, these tiles were left undone: they come next.
     void give_back(const Slice& slice, std::vector<uint32_t> tiles);
+    // The samples of a tile of a slice.
+    void list(const Slice& slice, uint32_t tile, std::vector<PixelSample>& out) const;
+    // To be told what a tile's samples were, before the slice after it is asked for. For different tiles from any
+    // threads.
+    void note(uint32_t tile, std::span<const PixelSample> samples, std::span<const RadianceSample> traced);
     // Passes of one sample for every pixel that are complete: the spp.
     uint32_t complete_samples() const {
         return rest_.tiles.empty() ? complete_ : std::min(complete_, rest_.pass.sample_index);
@@ -64,6 +70,7 @@ class Schedule {
     uint32_t complete_ = 0;
     uint32_t resolved_stride_;
     bool first_pass_done_ = false;
+    ReusePlan reuse_plan_;
 };
 
 // The finest stride whose lattice is traced within target_seconds. seconds_per_path of all workers together; 0:

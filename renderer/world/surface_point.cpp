@@ -20,13 +20,21 @@ Vec4 triangle_tangent(const Vec3& edge1, const Vec3& edge2, const Vec2& uv1, con
     return Vec4((edge1 * uv2.y - edge2 * uv1.y) * (mirrored ? -1.0f : 1.0f), mirrored ? 1.0f : -1.0f);
 }
 
+// How high over the surface a direction mirrored at n is, and how high it has to be.
+struct MirroredHeight {
+    Vec3 mirrored;
+    float height, lowest;
+
+    MirroredHeight(const Vec3& n, const Vec3& ng, const Vec3& wo)
+        : mirrored(2.0f * glm::dot(n, wo) * n - wo),
+          height(glm::dot(mirrored, ng)),
+          lowest(std::min(1e-2f, 0.9f * glm::dot(ng, wo))) {}
+};
+
 // Bends n until it mirrors wo to the surface's own side. Both normals are unit vectors; wo is on the side of ng.
 Vec3 bend_towards(const Vec3& n, const Vec3& ng, const Vec3& wo) {
-    constexpr float min_cosine = 1e-2f;
-    const Vec3 mirrored = 2.0f * glm::dot(n, wo) * n - wo;
-    const float lowest = std::min(min_cosine, 0.9f * glm::dot(ng, wo));
-    const float height = glm::dot(mirrored, ng);
-    if (height >= lowest && glm::dot(n, wo) > 0.0f) return n;
+    if (!bends_towards(n, ng, wo)) return n;
+    const auto [mirrored, height, lowest] = MirroredHeight(n, ng, wo);
     const Vec3 lifted = mirrored + (lowest - height) * ng;
     const Vec3 half = wo + lifted / std::max(glm::length(lifted), 1e-12f);
     const float length = glm::length(half);
@@ -42,6 +50,11 @@ OrthonormalFrame frame_with_tangent(const Vec3& normal, const Vec3& tangent, flo
 }
 
 }  // namespace
+
+bool bends_towards(const Vec3& shading_normal, const Vec3& geometric_normal, const Vec3& wo) noexcept {
+    const MirroredHeight at(shading_normal, geometric_normal, wo);
+    return !(at.height >= at.lowest && glm::dot(shading_normal, wo) > 0.0f);
+}
 
 SurfacePoint make_surface_point(const World& world, const Hit& hit, const Vec3& wo,
                                 const RayFootprint& footprint) noexcept {
@@ -133,6 +146,7 @@ SurfacePoint make_surface_point(const World& world, const Hit& hit, const Vec3& 
     if (material.normal.valid()) shading_normal = mapped_normal(material.normal, material.normal_scale);
     const float side = point.front_face ? 1.0f : -1.0f;
     const Vec3 normal_towards_wo = bend_towards(side * shading_normal, point.geometric_normal, wo);
+    point.bent = normal_towards_wo != side * shading_normal;
     if (material.clearcoat.factor > 0.0f) {
         const Vec3 coat = material.clearcoat.normal.valid()
                               ? mapped_normal(material.clearcoat.normal, material.clearcoat.normal_scale)

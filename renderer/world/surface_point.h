@@ -20,6 +20,7 @@ struct SurfacePoint {
     TextureFootprint footprint[2];  // of each uv set, before a use's transform
     uint32_t material = 0;
     uint32_t surface = 0, triangle = 0;
+    bool bent = false;       // the shading normal was, for this wo
     bool front_face = true;  // wo is on the front side of the triangle
 };
 
@@ -35,6 +36,9 @@ struct RayFootprint {
 // "The Iray Light Transport Simulation and Rendering System", section A.3).
 SurfacePoint make_surface_point(const World& world, const Hit& hit, const Vec3& wo,
                                 const RayFootprint& footprint = {}) noexcept;
+
+// Whether it would bend this shading normal for wo; all unit vectors, wo on the side of the geometric normal.
+bool bends_towards(const Vec3& shading_normal, const Vec3& geometric_normal, const Vec3& wo) noexcept;
 
 // What make_surface_point will read of a large mesh, asked for early: first where the triangle's vertices are, later
 // the vertices. Only for speed.

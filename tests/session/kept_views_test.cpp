@@ -145,7 +145,7 @@ TEST(KeptViews, TheOldestGoFirstAndBookmarksLast) {
     const auto samples = [] {
         auto out = std::make_shared<ViewSamples>();
         out->film = Film(Vec2u(10, 10));
-        out->schedule.emplace(Vec2u(10, 10), 1);
+        out->schedule.emplace(Vec2u(10, 10), 1, false);
         out->schedule->next(1000);
         return out;
     };

@@ -10,14 +10,14 @@ namespace {
 TEST(Schedule, LatticesCoverEveryPixelOnceThenPassesFollow) {
     for (const Vec2u extent : {Vec2u(1, 1), Vec2u(7, 130), Vec2u(257, 33), Vec2u(64, 64)}) {
         for (const uint32_t first_stride : {1u, 8u, 16u, 64u}) {
-            Schedule schedule(extent, first_stride);
+            Schedule schedule(extent, first_stride, false);
             std::vector<PixelSample> samples;
             std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> seen;
             while (schedule.complete_samples() < 3) {
                 const Slice slice = schedule.next(3);
                 ASSERT_LT(slice.first_tile, slice.end_tile);
                 for (uint32_t tile = slice.first_tile; tile < slice.end_tile; ++tile) {
-                    list_tile(slice.pass, extent, tile, samples);
+                    schedule.list(slice, tile, samples);
                     ASSERT_LE(samples.size(), max_batch);
                     for (const PixelSample& s : samples)
                         seen[{s.x, s.y}].push_back(s.index);
@@ -31,7 +31,7 @@ TEST(Schedule, LatticesCoverEveryPixelOnceThenPassesFollow) {
 }
 
 TEST(Schedule, TheFirstPassComesWholeAndIsCoarse) {
-    Schedule schedule({1280, 720}, 8);
+    Schedule schedule({1280, 720}, 8, false);
     const Slice slice = schedule.next(1);
     EXPECT_EQ(slice.first_tile, 0u);
     EXPECT_EQ(slice.end_tile, tile_count(slice.pass, {1280, 720}));
@@ -42,7 +42,7 @@ TEST(Schedule, TheFirstPassComesWholeAndIsCoarse) {
 
 TEST(Schedule, WhatIsGivenBackComesNext) {
     const Vec2u extent(130, 70);
-    Schedule schedule(extent, 2);
+    Schedule schedule(extent, 2, false);
     schedule.next(1000);
     Slice slice = schedule.next(1000);
     EXPECT_EQ(slice.pass.stride, 1u);

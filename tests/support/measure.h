@@ -17,6 +17,7 @@ struct Technique {
     Estimator estimator = Estimator::mis;
     SamplerKind sampler = SamplerKind::sobol;
     bool batched = true;
+    bool shares_paths = false;  // between pixels that all see the one point
 };
 extern const std::vector<Technique> all_techniques;
 std::string describe(const Technique& t);
