@@ -64,6 +64,14 @@ Imf::Slice float_slice(float* first, const Imath::Box2i& window, int width, size
     return Imf::Slice(Imf::FLOAT, base, static_cast<size_t>(x_bytes), static_cast<size_t>(y_bytes), 1, 1, fill);
 }
 
+// What the library quotes from the file may be anything; a message is one line of text.
+std::string one_line(std::string message) {
+    for (char& c : message) {
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+    }
+    return message;
+}
+
 }  // namespace
 
 ImageRgba32f decode_exr(std::span<const std::byte> bytes, const DecodeLimits& limits) try {
@@ -97,7 +105,7 @@ ImageRgba32f decode_exr(std::span<const std::byte> bytes, const DecodeLimits& li
 } catch (const ImageError&) {
     throw;
 } catch (const std::exception& error) {
-    throw ImageError(std::string("broken EXR: ") + error.what());
+    throw ImageError("broken EXR: " + one_line(error.what()));
 }
 
 void write_exr(const std::filesystem::path& path, const ImageRgba32f& image, bool with_alpha,

@@ -7,6 +7,8 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include "renderer/scene/scene.h"
+
 namespace candela {
 
 // Buffers are little-endian; the elements are read as they lie.
@@ -109,6 +111,15 @@ AccessorReader::Source AccessorReader::source_of(uint32_t index) {
     return {buffers_.view(*accessor.view).data() + accessor.byte_offset, accessor.stride};
 }
 
+void AccessorReader::decode_early(const std::vector<uint32_t>& accessors) {
+    std::set<uint32_t> views;
+    for (const uint32_t accessor : accessors) {
+        const std::optional<uint32_t> view = layout(accessor).view;
+        if (view && layout_.views[*view].compressed) views.insert(*view);
+    }
+    if (views.size() > 1) buffers_.decode_early(views);
+}
+
 std::vector<uint64_t> AccessorReader::read_sparse_positions(uint32_t index) {
     const AccessorLayout& accessor = layout(index);
     const SparseLayout& sparse = *accessor.sparse;
@@ -139,7 +150,9 @@ std::vector<Element> AccessorReader::read_floats(uint32_t index, uint32_t rows, 
     constexpr uint64_t floats_each = sizeof(Element) / sizeof(float);
     const bool normalized = accessor.normalized || always_normalized;
     context_.charge(accessor.count, sizeof(Element), pointer_to("/accessors", index, "count"));
-    std::vector<Element> elements(accessor.count, Element(0.0f));
+    std::vector<Element> elements;
+    if constexpr (std::is_same_v<Element, Vec3>) elements.reserve(accessor.count + position_padding);
+    elements.resize(accessor.count, Element(0.0f));
     auto* out = reinterpret_cast<float*>(elements.data());
     if (const Source source = source_of(index); source.first != nullptr) {
         convert_elements(accessor, normalized, source.first, source.stride, accessor.count, out);

@@ -26,6 +26,8 @@ class AccessorReader {
     // So what a compressed primitive holds reads like any other accessor.
     void replace(uint32_t accessor, std::vector<std::byte> elements) { replaced_[accessor] = std::move(elements); }
     void clear_replacements() { replaced_.clear(); }
+    // Decompresses what these accessors read, as far as it is compressed (BufferStore::decode_early).
+    void decode_early(const std::vector<uint32_t>& accessors);
     // The bytes of a buffer view, decompressed.
     std::span<const std::byte> view(uint32_t view) { return buffers_.view(view); }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/io/buffers.h"
 
+#include "renderer/math/parallel.h"
+
 namespace candela {
 
 BufferStore::BufferStore(LoadContext& context, const Layout& layout, const AssetFiles& files,
@@ -56,6 +58,7 @@ void BufferStore::decode(uint32_t index) {
         decoded_[index] = decode_meshopt({buffers_[source.buffer].subspan(source.byte_offset, source.byte_length),
                                           source.count, source.stride, source.mode, source.filter});
     } catch (const std::runtime_error& error) {
+        context_.release(source.count * source.stride);
         context_.fail(where, error.what());
     }
     if (decoded_[index].size() != view.byte_length) context_.fail(where, "decodes to another size than declared");
@@ -66,6 +69,16 @@ std::span<const std::byte> BufferStore::view(uint32_t index) {
     if (!view.compressed) return buffers_[view.buffer].subspan(view.byte_offset, view.byte_length);
     std::call_once(asked_[index], [&] { decode(index); });
     return decoded_[index];
+}
+
+void BufferStore::decode_early(const std::set<uint32_t>& views) {
+    const std::vector<uint32_t> all(views.begin(), views.end());
+    parallel_for_each(all.size(), 1, [&](size_t i) {
+        try {
+            view(all[i]);
+        } catch (...) {  // NOLINT(bugprone-empty-catch): said when the view is asked for
+        }
+    });
 }
 
 }  // namespace candela

@@ -4,6 +4,7 @@
 
 #include <mutex>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,10 @@ class BufferStore {
 
     // byteLength bytes; valid as long as the store. Throws LoadError where compressed data is damaged. From any thread.
     std::span<const std::byte> view(uint32_t index);
+
+    // Decompresses views on all cores, so that whoever asks for them does not wait for one after another. What fails
+    // does so again when it is asked for.
+    void decode_early(const std::set<uint32_t>& views);
 
   private:
     std::span<const std::byte> read_buffer(size_t index, const AssetFiles& files,

@@ -256,21 +256,36 @@ std::vector<std::byte> DracoMesh::attribute(uint32_t unique_id, const AccessorLa
     const uint64_t out_element = packed_bytes(accessor);
     const bool copies = component_of(type) == accessor.type;
     const double scale = scale_between(*source, accessor);
+    // Of so many values the data holds every byte.
+    uint64_t values = 0;
+    if (offset <= size && source_element <= size - offset && stride > 0)
+        values = std::min<uint64_t>(source->size(), (size - offset - source_element) / stride + 1);
+    const auto value_of = [&](uint64_t point) {
+        const uint64_t value = source->mapped_index(draco::PointIndex(static_cast<uint32_t>(point))).value();
+        require(value < values, "the compressed attribute reaches past its data");
+        return bytes + offset + value * stride;
+    };
     std::vector<std::byte> out(points * out_element);
-    for (uint64_t p = 0; p < points; ++p) {
-        const uint64_t value = source->mapped_index(draco::PointIndex(static_cast<uint32_t>(p))).value();
-        require(value < source->size() && offset <= size && value * stride <= size - offset &&
-                    source_element <= size - offset - value * stride,
-                "the compressed attribute reaches past its data");
-        const std::byte* from = bytes + offset + value * stride;
-        std::byte* to = out.data() + p * out_element;
-        if (copies) {
-            std::memcpy(to, from, source_element);
-            continue;
-        }
-        for (uint32_t c = 0; c < components; ++c) {
-            store_component(accessor.type, scale * load_component(type, from + c * source_component),
-                            to + c * out_component);
+    // Copies are of a size that the compiler knows.
+    const auto copy_all = [&](auto element) {
+        for (uint64_t p = 0; p < points; ++p)
+            std::memcpy(out.data() + p * element, value_of(p), element);
+    };
+    if (copies && source_element == 8) {
+        copy_all(std::integral_constant<size_t, 8>());
+    } else if (copies && source_element == 12) {
+        copy_all(std::integral_constant<size_t, 12>());
+    } else if (copies && source_element == 16) {
+        copy_all(std::integral_constant<size_t, 16>());
+    } else if (copies) {
+        copy_all(source_element);
+    } else {
+        for (uint64_t p = 0; p < points; ++p) {
+            const std::byte* from = value_of(p);
+            for (uint32_t c = 0; c < components; ++c) {
+                store_component(accessor.type, scale * load_component(type, from + c * source_component),
+                                out.data() + p * out_element + c * out_component);
+            }
         }
     }
     return out;
@@ -281,11 +296,15 @@ std::vector<std::byte> DracoMesh::indices(const AccessorLayout& accessor) const 
     const uint64_t component = component_bytes(accessor.type);
     std::vector<std::byte> out(uint64_t{mesh.num_faces()} * 3 * component);
     std::byte* to = out.data();
+    const auto store = [&](uint32_t corner) {
+        if (accessor.type != ComponentType::u32) return store_component(accessor.type, corner, to);
+        std::memcpy(to, &corner, sizeof(corner));
+    };
     for (uint32_t f = 0; f < mesh.num_faces(); ++f) {
         const draco::Mesh::Face& face = mesh.face(draco::FaceIndex(f));
         for (size_t c = 0; c < 3; ++c, to += component) {
             require(face[c].value() < mesh.num_points(), "the compressed triangles name vertices that are not there");
-            store_component(accessor.type, face[c].value(), to);
+            store(face[c].value());
         }
     }
     return out;

@@ -36,9 +36,10 @@ void LoadContext::charge(uint64_t bytes, const std::string& where) {
 }
 
 void LoadContext::release(uint64_t bytes) {
-    net_bytes_ -= std::min(net_bytes_, bytes);
-    uint64_t used = used_bytes_.load();
-    while (!used_bytes_.compare_exchange_weak(used, used - std::min(used, bytes))) {
+    for (std::atomic<uint64_t>* sum : {&net_bytes_, &used_bytes_}) {
+        uint64_t before = sum->load();
+        while (!sum->compare_exchange_weak(before, before - std::min(before, bytes))) {
+        }
     }
 }
 

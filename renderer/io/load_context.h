@@ -65,7 +65,7 @@ class LoadContext {
     Diagnostics& diagnostics_;
     const LoadOptions& options_;
     std::function<void()> relief_;
-    uint64_t net_bytes_ = 0;
+    std::atomic<uint64_t> net_bytes_ = 0;
     std::atomic<uint64_t> own_bytes_;
     std::atomic<uint64_t>& used_bytes_;
 };

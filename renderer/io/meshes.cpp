@@ -291,6 +291,15 @@ std::vector<PrimitivesLoader::Part> PrimitivesLoader::parts() const {
 
 // False where there was not memory enough for several at a time: nothing has happened then.
 bool PrimitivesLoader::run_together() {
+    // Primitives often share their views.
+    std::vector<uint32_t> read;
+    for (const PrimitiveSource& each : sources_) {
+        for (const auto& [name, accessor] : each.source->attributes)
+            read.push_back(static_cast<uint32_t>(accessor));
+        if (each.source->indices >= 0) read.push_back(static_cast<uint32_t>(each.source->indices));
+    }
+    accessors_.decode_early(read);
+
     std::vector<Part> all = parts();
     std::atomic<size_t> first_failed{all.size()};
     parallel_for_each(all.size(), 1, [&](size_t i) {

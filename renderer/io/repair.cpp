@@ -30,7 +30,9 @@ Vec3 any_perpendicular(const Vec3& n) {
 template <typename T>
 void gather(std::vector<T>& values, const std::vector<uint32_t>& kept) {
     if (values.empty()) return;
-    std::vector<T> out(kept.size());
+    std::vector<T> out;
+    out.reserve(kept.size() + position_padding);
+    out.resize(kept.size());
     for (size_t i = 0; i < kept.size(); ++i)
         out[i] = values[kept[i]];
     values = std::move(out);

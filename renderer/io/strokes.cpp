@@ -177,6 +177,7 @@ class BodyMaker {
                      sphere_triangles = detail_.sphere.triangles.size();
         const size_t tube_corners = size_t{2} * detail_.sides;
         const size_t vertices = positions.size() * sphere_vertices + tubes.size() * tube_corners;
+        positions_.reserve(vertices + position_padding);
         positions_.resize(vertices);
         normals_.resize(vertices);
         sources_.resize(vertices);

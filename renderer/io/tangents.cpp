@@ -272,7 +272,7 @@ void TangentBuilder::write_back() {
     // Their number is known: nothing grows further than it must.
     const auto append = [&](auto& values) {
         if (values.empty()) return;
-        values.reserve(vertices + appended_from.size());
+        values.reserve(vertices + appended_from.size() + position_padding);
         for (const uint32_t from : appended_from)
             values.push_back(values[from]);
     };

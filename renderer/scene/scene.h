@@ -45,6 +45,10 @@ struct VariantMaterial {
     MaterialId material;
 };
 
+// Whoever makes the positions of a primitive reserves room for that many more, so that the accelerator, which reads 16
+// bytes past the last one, can traverse them where they lie; without it they are copied.
+inline constexpr size_t position_padding = 2;
+
 // Triangles that share one material: a glTF primitive. Per-vertex arrays are empty or as long as positions.
 struct Primitive {
     std::vector<Vec3> positions;

@@ -53,7 +53,7 @@ SurfaceTransform make_surface_transform(const Mat4& world_from_object) {
 
 std::vector<Vec3> padded_positions(const std::vector<Vec3>& positions, const Mat4* world_from_object) {
     std::vector<Vec3> out;
-    out.reserve(positions.size() + 2);
+    out.reserve(positions.size() + position_padding);
     if (world_from_object == nullptr) {
         out.assign(positions.begin(), positions.end());
     } else {
@@ -62,7 +62,7 @@ std::vector<Vec3> padded_positions(const std::vector<Vec3>& positions, const Mat
             out.emplace_back(m * Vec4(p, 1.0f));
     }
     // Two more vertices than anyone indexes: 24 readable bytes.
-    out.insert(out.end(), 2, Vec3(0));
+    out.insert(out.end(), position_padding, Vec3(0));
     return out;
 }
 

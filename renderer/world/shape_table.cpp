@@ -10,8 +10,15 @@ std::shared_ptr<const MeshVertices> make_vertices(const std::shared_ptr<const Me
     auto out = std::make_shared<MeshVertices>();
     out->mesh = mesh;
     if (world_from_object != nullptr) out->world_from_object = *world_from_object;
+    const bool stays = world_from_object == nullptr || *world_from_object == Mat4(1.0f);
     for (const Primitive& primitive : mesh->primitives) {
-        out->positions.push_back(padded_positions(primitive.positions, world_from_object));
+        const std::vector<Vec3>& own = primitive.positions;
+        if (stays && own.capacity() - own.size() >= position_padding) {
+            out->positions.emplace_back(own);
+        } else {
+            out->copies.push_back(padded_positions(own, world_from_object));
+            out->positions.emplace_back(std::span<const Vec3>(out->copies.back()).first(own.size()));
+        }
         out->finite = out->finite && std::all_of(out->positions.back().begin(), out->positions.back().end(), is_finite);
     }
     return out;
@@ -37,10 +44,10 @@ AccelShape describe_shape(const WorldShape& shape) {
         for (size_t i = 0; i < mesh.primitives.size(); ++i) {
             const size_t count = mesh.primitives[i].positions.size();
             AccelGeometry geometry;
-            geometry.positions = std::span(part->positions[i]).first(count);
+            geometry.positions = part->positions[i].first(count);
             geometry.triangles = mesh.primitives[i].triangles;
             geometry.has_opacity = shape.has_opacity[k++] != 0;
-            if (shape.rest) geometry.rest_positions = std::span(shape.rest->positions[i]).first(count);
+            if (shape.rest) geometry.rest_positions = shape.rest->positions[i].first(count);
             out.geometries.push_back(geometry);
         }
     }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,9 +49,10 @@ struct SurfaceTransform {
 // The vertices of a mesh as the accelerator traverses them: as modelled, or moved to world space.
 struct MeshVertices {
     std::shared_ptr<const Mesh> mesh;
-    std::optional<Mat4> world_from_object;     // what moved them
-    std::vector<std::vector<Vec3>> positions;  // of each primitive, padded
-    bool finite = true;                        // all of them
+    std::optional<Mat4> world_from_object;         // what moved them
+    std::vector<std::span<const Vec3>> positions;  // of each primitive: the mesh's own, or some of `copies`
+    std::vector<std::vector<Vec3>> copies;         // padded
+    bool finite = true;                            // all of them
 };
 
 // What lies under one tree of the accelerator.

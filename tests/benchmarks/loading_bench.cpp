@@ -17,10 +17,9 @@
 #include "renderer/io/asset_images.h"
 #include "renderer/io/glb_container.h"
 #include "renderer/io/json_document.h"
-#include "renderer/io/repair.h"
 #include "tests/benchmarks/made_scenes.h"
+#include "tests/benchmarks/opening_memory.h"
 #include "tests/benchmarks/percentile.h"
-#include "tests/benchmarks/process_memory.h"
 #include "tests/benchmarks/shared_scenes.h"
 
 namespace candela::bench {
@@ -82,7 +81,7 @@ double embree_ms(const World& world) {
             for (size_t i = 0; i < part->positions.size(); ++i) {
                 const Primitive& primitive = part->mesh->primitives[i];
                 AccelGeometry geometry;
-                geometry.positions = std::span<const Vec3>(part->positions[i]).first(primitive.positions.size());
+                geometry.positions = part->positions[i];
                 geometry.triangles = primitive.triangles;
                 out.geometries.push_back(geometry);
             }
@@ -98,29 +97,14 @@ double embree_ms(const World& world) {
     return ms_since(start);
 }
 
-// What a scene cannot do without: the texels of what is drawn, its vertices and triangles, the tree over them.
-uint64_t needed_bytes(const World& world) {
-    uint64_t bytes = world.accel->memory_bytes();
-    for (const SceneImage& image : world.scene->images) {
-        if (image.pixels) bytes += image.pixels->size() * sizeof(Rgba8);
-    }
-    for (const std::shared_ptr<const Mesh>& mesh : world.scene->meshes) {
-        for (const Primitive& primitive : mesh->primitives)
-            bytes += vertex_bytes(primitive) + primitive.triangles.size() * sizeof(Vec3u);
-    }
-    return bytes;
-}
-
 struct Times {
     std::map<std::string, std::vector<double>> steps_ms;
-    std::vector<double> open_ms, first_picture_ms, images_ms, build_ms, parse_ms, memory_ratio, peak_mb;
+    std::vector<double> open_ms, first_picture_ms, images_ms, build_ms, parse_ms;
 };
 
 // Returns the world that it has shown.
-std::shared_ptr<const World> open_once(const RenderOptions& options, Times& times, double film_bytes) {
+std::shared_ptr<const World> open_once(const RenderOptions& options, Times& times) {
     malloc_trim(0);
-    const double before_bytes = resident_bytes();
-    forget_peak();
     RenderSession session;
     const Clock::time_point start = Clock::now();
     std::string step = "reading";
@@ -139,22 +123,12 @@ std::shared_ptr<const World> open_once(const RenderOptions& options, Times& time
         nullptr);
     enter("first_picture");
     times.open_ms.push_back(ms_since(start));
-    const double opened_bytes = peak_bytes() - before_bytes;
     const uint64_t epoch = session.submit(job.request);
     for (const Frame* frame = nullptr; frame == nullptr || frame->epoch < epoch; frame = session.latest())
         std::this_thread::sleep_for(std::chrono::microseconds(100));
     enter("");
     times.first_picture_ms.push_back(ms_since(start));
     session.stop();
-    // With the film, where it counts among what is needed.
-    const double peak = film_bytes > 0 ? peak_bytes() - before_bytes : opened_bytes;
-    times.peak_mb.push_back(1e-6 * peak);
-    times.memory_ratio.push_back(peak / (static_cast<double>(needed_bytes(*job.world)) + film_bytes));
-    if (std::getenv("CANDELA_MEMORY_DETAILS") != nullptr) {
-        std::fprintf(stderr, "opened %.1f picture %.1f needed %.1f accel %.1f\n", 1e-6 * opened_bytes,
-                     1e-6 * (peak_bytes() - before_bytes), 1e-6 * static_cast<double>(needed_bytes(*job.world)),
-                     1e-6 * static_cast<double>(job.world->accel->memory_bytes()));
-    }
     times.parse_ms.push_back(steps["reading"]);
     for (const auto& [name, ms] : steps)
         times.steps_ms[name].push_back(ms);
@@ -171,13 +145,19 @@ void loading(benchmark::State& state, const std::string& name) {
     options.scene = path.string();
     options.resolution = Vec2u(1280, 720);
     const bool is_terrain = name == "terrain";
-    const double film_bytes = is_terrain ? 1280.0 * 720 * sizeof(FilmPixel) : 0;
     const StoredPictures pictures(path);
     Times times;
     for (auto _ : state) {
         times.images_ms.push_back(pictures.decoding_ms());
-        const std::shared_ptr<const World> world = open_once(options, times, film_bytes);
+        const std::shared_ptr<const World> world = open_once(options, times);
         times.build_ms.push_back(embree_ms(*world));
+    }
+    // The film counts only where the first picture does.
+    std::vector<double> memory_ratio, peak_mb;
+    for (int i = 0; i < 3; ++i) {
+        const OpeningMemory memory = opening_memory(path, is_terrain);
+        peak_mb.push_back(1e-6 * memory.peak_bytes);
+        memory_ratio.push_back(memory.peak_bytes / memory.needed_bytes);
     }
 
     const auto median = [](const std::vector<double>& values) { return percentile(values, 0.5); };
@@ -193,9 +173,9 @@ void loading(benchmark::State& state, const std::string& name) {
     state.counters["to_first_picture_ms"] = median(times.first_picture_ms);
     state.counters["all_images_ms"] = median(times.images_ms);
     state.counters["embree_ms"] = median(times.build_ms);
-    state.counters["peak_MB"] = median(times.peak_mb);
+    state.counters["peak_MB"] = median(peak_mb);
     state.counters["time_ratio"] = median(ratio);
-    state.counters["memory_ratio"] = median(times.memory_ratio);
+    state.counters["memory_ratio"] = median(memory_ratio);
 }
 
 #define CANDELA_LOADING(label, file) \

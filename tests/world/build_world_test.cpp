@@ -34,6 +34,27 @@ TEST(ClassifyTransform, SeparatesUsableFlatAndUnusable) {
     EXPECT_EQ(classify_transform(bad), TransformKind::unusable);
 }
 
+// Where room was left behind them for what the accelerator reads past the last one.
+TEST(BuildWorld, PositionsThatNothingMovesAreTraversedWhereTheyLie) {
+    const auto surface_of = [](bool room, const Mat4& world_from_object) {
+        Scene scene;
+        Primitive sphere = test::make_sphere(Vec3(0), 1, 24, 12);
+        std::vector<Vec3> positions;
+        positions.reserve(sphere.positions.size() + (room ? position_padding : 0));
+        positions.assign(sphere.positions.begin(), sphere.positions.end());
+        sphere.positions = std::move(positions);
+        add_object(scene, std::move(sphere), add_lambert(scene, Vec3(0.5f)), world_from_object);
+        const auto world = test::build(std::move(scene));
+        const Hit hit = shoot(*world, Vec3(0.1f, 0.2f, 9), Vec3(0, 0, -1));
+        EXPECT_NEAR(hit.distance, 9 - std::sqrt(0.95f), 0.02f);
+        const Surface& surface = world->surfaces[0];
+        return surface.positions == surface.primitive->positions.data();
+    };
+    EXPECT_TRUE(surface_of(true, Mat4(1)));
+    EXPECT_FALSE(surface_of(false, Mat4(1)));
+    EXPECT_FALSE(surface_of(true, glm::rotate(Mat4(1), 0.1f, Vec3(0, 0, 1))));
+}
+
 TEST(BuildWorld, SharedAndSinglePlacementGiveTheSameSurface) {
     const Mat4 placed = glm::translate(Mat4(1), Vec3(3, 1, -2)) * glm::rotate(Mat4(1), 0.7f, Vec3(1, 2, 3)) *
                         glm::scale(Mat4(1), Vec3(1.5f, -0.5f, 2.0f));
