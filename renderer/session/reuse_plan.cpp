@@ -17,8 +17,8 @@ constexpr uint32_t first_shared_trial = 2;
 // even where no ray has to be sent.
 constexpr double cost_of_segment = 2, cost_of_connection = 1, cost_of_weighing = 0.4;
 
-// Most of the noise of light that is not shared goes as samples fill their strata: so much of it counts.
-constexpr double unshared_noise = 0.1;
+// Two samples do not show how much better many fill their strata alone than in groups: sharing has to win clearly.
+constexpr double required_gain = 0.8;
 
 // Neighbouring tiles are heard too: the noise of one alone may be a single bright sample.
 constexpr uint32_t reach = 1;
@@ -49,13 +49,12 @@ void ReusePlan::note(uint32_t tile, std::span<const PixelSample> samples, std::s
     Trial& trial = trials_[index >= first_shared_trial ? 1 : 0][is_second ? tile : 0];
     for (size_t i = 0; i < samples.size(); ++i) {
         const RadianceSample& sample = traced[i];
-        Light& before = before_[size_t{samples[i].y} * extent_.x + samples[i].x];
-        const Light now{sample.shared_luminance, luminance(sample.radiance) - sample.shared_luminance};
+        float& before = before_[size_t{samples[i].y} * extent_.x + samples[i].x];
+        const float now = sample.shared_luminance;
         if (is_second) {
             trial.cost += cost_of_segment * sample.segments + cost_of_connection * sample.shadow_rays +
                           cost_of_weighing * sample.shared_with;
-            const double noise = static_cast<double>(sqr(now.shared - before.shared)) +
-                                 unshared_noise * static_cast<double>(sqr(now.own - before.own));
+            const double noise = static_cast<double>(sqr(now - before));
             if (std::isfinite(noise)) trial.noise += noise;
         }
         before = now;
@@ -77,7 +76,7 @@ void ReusePlan::decide() {
                 }
                 noise_times_cost[k] = sum.noise * sum.cost;
             }
-            shares_[size_t{y} * tiles_.x + x] = noise_times_cost[1] < noise_times_cost[0] ? 1 : 0;
+            shares_[size_t{y} * tiles_.x + x] = noise_times_cost[1] < required_gain * noise_times_cost[0] ? 1 : 0;
         }
     }
     before_ = {};

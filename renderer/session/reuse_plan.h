@@ -2,7 +2,7 @@
 // Where sharing paths pays: inside it may quarter the noise, under an open sky it adds some, for each path's own
 // directions are better chosen there. It is tried: two samples of each pixel are made alone, two in groups, and
 // the difference of each two in what can be shared, times what they cost, decides for the tile, before the samples that
-// it is for are traced. Light that is not shared counts little: most of its noise goes as samples fill their
+// it is for are traced. Light that is not shared does not count: most of its noise goes as samples fill their
 // strata.
 #pragma once
 
@@ -31,14 +31,11 @@ class ReusePlan {
     void decide();
 
   private:
-    struct Light {
-        float shared = 0, own = 0;  // luminance
-    };
     struct Trial {
         double noise = 0, cost = 0;
     };
     Vec2u extent_{0}, tiles_{0};
-    std::vector<Light> before_;     // each pixel's last sample
+    std::vector<float> before_;     // of each pixel's last sample, what can be shared
     std::vector<Trial> trials_[2];  // of each tile: alone, in groups
     std::vector<uint8_t> shares_;
 };

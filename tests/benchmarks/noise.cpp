@@ -7,11 +7,13 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "renderer/math/frame.h"
 #include "renderer/math/hash.h"
 #include "renderer/sampling/warp.h"
+#include "renderer/session/schedule.h"
 #include "tests/benchmarks/made_scenes.h"
 #include "tests/benchmarks/shared_scenes.h"
 
@@ -22,7 +24,6 @@ constexpr uint32_t side = 128;     // pixels of the square picture
 constexpr uint32_t spp = 64;       // of one picture
 constexpr uint32_t seeds = 5;      // pictures whose spread is the noise
 constexpr uint32_t max_depth = 9;  // "8 bounces" of other renderers
-constexpr uint32_t tile = 16;
 
 const std::vector<std::pair<const char*, const char*>> scenes{
     {"cornell_box", "assets/cornell_box.glb"},
@@ -40,17 +41,20 @@ std::vector<Variant> variants() {
     IntegratorSettings usual;
     usual.max_depth = max_depth;
     usual.filter = PixelFilter::box;
-    std::vector<Variant> out(6, {"as it is", usual});
+    std::vector<Variant> out(7, {"as it is", usual});
     out[1].name = "independent samples";
     out[1].settings.sampler = SamplerKind::independent;
     out[2].name = "light samples alone";
     out[2].settings.estimator = Estimator::light;
     out[3].name = "directions alone";
     out[3].settings.estimator = Estimator::bsdf;
-    out[4].name = "no roulette";
+    out[4].name = "no roulette, each path alone";
     out[4].settings.russian_roulette = false;
+    out[4].settings.reuse_paths = false;
     out[5].name = "textures not filtered";
     out[5].settings.filter_textures = false;
+    out[6].name = "each path alone";
+    out[6].settings.reuse_paths = false;
     return out;
 }
 
@@ -70,19 +74,19 @@ struct Picture {
 Picture render(const LoadedScene& scene, const IntegratorSettings& settings, uint32_t samples) {
     Picture out;
     const View view = view_of(scene, Vec2u(side));
-    std::vector<PixelSample> wanted(size_t{tile} * tile);
-    std::vector<RadianceSample> got(wanted.size());
+    std::vector<PixelSample> wanted;
+    std::vector<RadianceSample> got(max_batch);
+    Schedule schedule(view.extent, 1, settings.may_reuse_paths());
     const double start = cpu_seconds();
-    for (uint32_t index = 0; index < samples; ++index) {
-        for (uint32_t ty = 0; ty < side; ty += tile) {
-            for (uint32_t tx = 0; tx < side; tx += tile) {
-                for (uint32_t i = 0; i < tile * tile; ++i)
-                    wanted[i] = {static_cast<uint16_t>(tx + i % tile), static_cast<uint16_t>(ty + i / tile), index};
-                trace_batch(*scene.world, view, settings, wanted, got, out.rays);
-                for (size_t i = 0; i < wanted.size(); ++i) {
-                    out.luminance[size_t{wanted[i].y} * side + wanted[i].x] +=
-                        luminance(got[i].radiance) / static_cast<float>(samples);
-                }
+    while (schedule.complete_samples() < samples) {
+        const Slice pass = schedule.next(std::numeric_limits<uint32_t>::max());
+        for (uint32_t t = 0; t < pass.size(); ++t) {
+            schedule.list(pass, pass.tile(t), wanted);
+            trace_batch(*scene.world, view, settings, wanted, got, out.rays);
+            schedule.note(pass.tile(t), wanted, got);
+            for (size_t i = 0; i < wanted.size(); ++i) {
+                out.luminance[size_t{wanted[i].y} * side + wanted[i].x] +=
+                    luminance(got[i].radiance) / static_cast<float>(samples);
             }
         }
     }

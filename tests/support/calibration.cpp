@@ -2,7 +2,10 @@
 #include "tests/support/calibration.h"
 
 #include <atomic>
+#include <limits>
 #include <thread>
+
+#include "renderer/session/schedule.h"
 
 namespace candela::test {
 
@@ -14,32 +17,31 @@ struct State {
     FilmStatistics stated;
 };
 
-void add_samples(const World& world, const View& view, const IntegratorSettings& settings, uint32_t begin, uint32_t end,
-                 unsigned threads, Film& film) {
-    std::atomic<uint32_t> next{0};
-    const auto work = [&] {
-        RayCounts counts;
-        std::vector<PixelSample> samples(max_batch);
-        std::vector<RadianceSample> out(max_batch);
-        for (uint32_t y = next.fetch_add(1); y < view.extent.y; y = next.fetch_add(1)) {
-            for (uint32_t i = begin; i < end; ++i) {
-                for (uint32_t x0 = 0; x0 < view.extent.x; x0 += max_batch) {
-                    const uint32_t n = std::min<uint32_t>(max_batch, view.extent.x - x0);
-                    for (uint32_t x = 0; x < n; ++x)
-                        samples[x] = {static_cast<uint16_t>(x0 + x), static_cast<uint16_t>(y), i};
-                    trace_batch(world, view, settings, std::span(samples).first(n), out, counts);
-                    for (uint32_t x = 0; x < n; ++x)
-                        film.add({x0 + x, y}, i, out[x].radiance, out[x].alpha);
-                }
+// As a session has it: samples share their paths where that pays.
+void add_samples(const World& world, const View& view, const IntegratorSettings& settings, uint32_t spp,
+                 unsigned threads, Schedule& schedule, Film& film) {
+    while (schedule.complete_samples() < spp) {
+        const Slice pass = schedule.next(std::numeric_limits<uint32_t>::max());
+        std::atomic<uint32_t> next{0};
+        const auto work = [&] {
+            RayCounts counts;
+            std::vector<PixelSample> samples;
+            std::vector<RadianceSample> out(max_batch);
+            for (uint32_t t = next.fetch_add(1); t < pass.size(); t = next.fetch_add(1)) {
+                schedule.list(pass, pass.tile(t), samples);
+                trace_batch(world, view, settings, samples, out, counts);
+                schedule.note(pass.tile(t), samples, out);
+                for (size_t i = 0; i < samples.size(); ++i)
+                    film.add({samples[i].x, samples[i].y}, samples[i].index, out[i].radiance, out[i].alpha);
             }
-        }
-    };
-    std::vector<std::thread> others;
-    for (unsigned i = 1; i < threads; ++i)
-        others.emplace_back(work);
-    work();
-    for (std::thread& other : others)
-        other.join();
+        };
+        std::vector<std::thread> others;
+        for (unsigned i = 1; i < threads; ++i)
+            others.emplace_back(work);
+        work();
+        for (std::thread& other : others)
+            other.join();
+    }
 }
 
 std::vector<double> luminances(const Film& film) {
@@ -85,10 +87,9 @@ std::vector<Calibration> calibrate(const World& world, const View& view, const I
         IntegratorSettings own = settings;
         own.seed = settings.seed + seed;
         Film film(view.extent);
-        uint32_t done = 0;
+        Schedule schedule(view.extent, 1, own.may_reuse_paths());
         for (const uint32_t level : levels) {
-            add_samples(world, view, own, done, level, threads, film);
-            done = level;
+            add_samples(world, view, own, level, threads, schedule, film);
             states[seed].push_back({luminances(film), statement(film)});
         }
     }
