@@ -2,6 +2,7 @@
 #include "renderer/integrator/path_reuse.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "renderer/sampling/mis.h"
 #include "renderer/world/surface_point.h"
@@ -115,7 +116,9 @@ void ReuseGroups::form(std::span<const PixelSample> samples) noexcept {
     struct Key {
         uint32_t index = 0, tile = 0, group = 0;
         uint16_t position = 0;
-        auto operator<=>(const Key&) const = default;
+        bool operator<(const Key& o) const {
+            return std::tie(index, tile, group, position) < std::tie(o.index, o.tile, o.group, o.position);
+        }
     };
     std::array<Key, max_batch> keys;
     size_t n = 0;

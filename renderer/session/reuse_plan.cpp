@@ -80,7 +80,7 @@ void ReusePlan::decide() {
         }
     }
     before_ = {};
-    trials_[0] = trials_[1] = {};
+    trials_ = {};
 }
 
 }  // namespace candela

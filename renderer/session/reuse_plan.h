@@ -6,6 +6,7 @@
 // strata.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -35,8 +36,8 @@ class ReusePlan {
         double noise = 0, cost = 0;
     };
     Vec2u extent_{0}, tiles_{0};
-    std::vector<float> before_;     // of each pixel's last sample, what can be shared
-    std::vector<Trial> trials_[2];  // of each tile: alone, in groups
+    std::vector<float> before_;                 // of each pixel's last sample, what can be shared
+    std::array<std::vector<Trial>, 2> trials_;  // of each tile: alone, in groups
     std::vector<uint8_t> shares_;
 };
 
