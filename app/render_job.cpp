@@ -308,13 +308,14 @@ void show_pose(RenderJob& job, const RenderOptions& options, uint32_t animation,
     }
 }
 
-void edit_scene(RenderJob& job, const std::vector<Material>& materials, const std::vector<PunctualLight>& lights,
-                const std::atomic<bool>* cancel) {
+namespace {
+
+// Changes the scene that is shown and the one at rest alike; geometry stays as it is.
+template <typename Edit>
+void show_edited(RenderJob& job, const Edit& edit, const std::atomic<bool>* cancel) {
     auto scene = std::make_shared<Scene>(*job.world->scene), rest = std::make_shared<Scene>(*job.rest);
-    for (const std::shared_ptr<Scene>& each : {scene, rest}) {
-        each->materials = materials;
-        each->lights = lights;
-    }
+    edit(*scene);
+    edit(*rest);
     job.rest = rest;
     BuildOptions build;
     build.cancel = cancel;
@@ -323,15 +324,22 @@ void edit_scene(RenderJob& job, const std::vector<Material>& materials, const st
     job.request.world = job.world;
 }
 
+}  // namespace
+
+void edit_scene(RenderJob& job, const std::vector<Material>& materials, const std::vector<PunctualLight>& lights,
+                const std::atomic<bool>* cancel) {
+    show_edited(
+        job,
+        [&](Scene& scene) {
+            scene.materials = materials;
+            scene.lights = lights;
+        },
+        cancel);
+}
+
 void show_variant(RenderJob& job, std::optional<uint32_t> variant, const std::atomic<bool>* cancel) {
-    auto scene = std::make_shared<Scene>(*job.world->scene), rest = std::make_shared<Scene>(*job.rest);
-    scene->active_variant = rest->active_variant = variant;
-    job.rest = rest;
-    BuildOptions build;
-    build.cancel = cancel;
-    job.build_seconds = 0;
-    make_job_world(job, cancel, [&] { return with_pose(job.world, scene, build); });
-    job.request.world = job.world;
+    show_edited(
+        job, [&](Scene& scene) { scene.active_variant = variant; }, cancel);
 }
 
 RenderJob prepare_render(const RenderOptions& options, const std::function<void(const char*, double)>& progress,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Radiance samples: one pixel sample is a pure function of (World, Camera, settings, pixel, sample index). Two drivers
-// compute it: the scalar one is the readable algorithm and the oracle of the batched one.
+// Radiance samples: one pixel sample is a pure function of (World, Camera, settings, pixel, sample index), and of the
+// samples that share their paths with it. Two drivers compute it: the scalar one is the readable algorithm and the
+// oracle of the batched one.
 #pragma once
 
 #include <atomic>

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tests/support/scenes.h"
+#include "tests/support/tiles.h"
 
 namespace candela {
 namespace {
@@ -80,22 +81,6 @@ std::shared_ptr<const World> furnished_room() {
     return test::build(std::move(scene));
 }
 
-View room_view(uint32_t side) {
-    View view;
-    view.camera.world_from_camera = look_at(Vec3(0, 1.8f, 5), Vec3(0, 1.6f, 0), Vec3(0, 1, 0));
-    view.extent = Vec2u(side);
-    return view;
-}
-
-std::vector<PixelSample> tile_at(uint32_t left, uint32_t top, uint32_t index, PathSharing sharing) {
-    std::vector<PixelSample> out;
-    for (uint32_t y = 0; y < reuse_tile; ++y) {
-        for (uint32_t x = 0; x < reuse_tile; ++x)
-            out.push_back({static_cast<uint16_t>(left + x), static_cast<uint16_t>(top + y), index, sharing});
-    }
-    return out;
-}
-
 TEST(PathReuse, GroupsAreWholeAndTouchNowhere) {
     std::map<uint32_t, std::set<std::pair<uint32_t, uint32_t>>> groups;
     for (uint32_t y = 0; y < reuse_tile; ++y) {
@@ -136,7 +121,7 @@ TEST(PathReuse, GroupsOfACallHoldWhatBelongsTogether) {
 
 TEST(PathReuse, BothDriversAgreeToTheBit) {
     const auto world = furnished_room();
-    const View view = room_view(48);
+    const View view = test::room_view(48);
     for (const Estimator estimator : {Estimator::mis, Estimator::light, Estimator::bsdf}) {
         IntegratorSettings settings;
         settings.estimator = estimator;
@@ -144,7 +129,7 @@ TEST(PathReuse, BothDriversAgreeToTheBit) {
         uint64_t shared = 0;
         for (const PathSharing sharing : {PathSharing::group, PathSharing::alone}) {
             for (uint32_t top = 0; top < 48; top += reuse_tile) {
-                const auto samples = tile_at(16, top, 3, sharing);
+                const auto samples = test::tile_at(16, top, 3, sharing);
                 std::vector<RadianceSample> scalar(samples.size()), batched(samples.size());
                 trace_samples(*world, view, settings, samples, scalar, scalar_counts);
                 ASSERT_TRUE(trace_batch(*world, view, settings, samples, batched, batched_counts));
@@ -166,14 +151,15 @@ TEST(PathReuse, BothDriversAgreeToTheBit) {
 // A path that shares with nobody is the path that it would be without sharing, but for rounding.
 TEST(PathReuse, APathAloneIsThePath) {
     const auto world = furnished_room();
-    const View view = room_view(32);
+    const View view = test::room_view(32);
     for (const Estimator estimator : {Estimator::mis, Estimator::light, Estimator::bsdf}) {
         IntegratorSettings settings;
         settings.estimator = estimator;
         RayCounts counts;
         size_t with_shared = 0;
         for (uint32_t index = 0; index < 4; ++index) {
-            const auto alone = tile_at(8, 8, index, PathSharing::alone), none = tile_at(8, 8, index, PathSharing::none);
+            const auto alone = test::tile_at(8, 8, index, PathSharing::alone),
+                       none = test::tile_at(8, 8, index, PathSharing::none);
             std::vector<RadianceSample> a(alone.size()), b(alone.size());
             ASSERT_TRUE(trace_batch(*world, view, settings, alone, a, counts));
             ASSERT_TRUE(trace_batch(*world, view, settings, none, b, counts));
@@ -204,7 +190,7 @@ std::vector<Mean> means_of(const World& world, const View& view, IntegratorSetti
         for (uint32_t index = 0; index < spp; ++index) {
             for (uint32_t top = 0; top < view.extent.y; top += reuse_tile) {
                 for (uint32_t left = 0; left < view.extent.x; left += reuse_tile) {
-                    const auto samples = tile_at(left, top, index, sharing);
+                    const auto samples = test::tile_at(left, top, index, sharing);
                     trace_batch(world, view, settings, samples, traced, counts);
                     for (size_t i = 0; i < samples.size(); ++i)
                         sums[size_t{samples[i].y} / piece.y * pieces.x + samples[i].x / piece.x] +=
@@ -255,7 +241,7 @@ TEST(PathReuse, SharedPathsShowTheSamePicture) {
         IntegratorSettings settings;
         settings.estimator = estimator;
         settings.max_depth = 6;
-        expect_same_picture(*world, room_view(32), settings, Vec2u(8), 24, 4e-3);
+        expect_same_picture(*world, test::room_view(32), settings, Vec2u(8), 24, 4e-3);
     }
 }
 

@@ -6,25 +6,10 @@
 
 #include "renderer/integrator/path_reuse.h"
 #include "tests/support/scenes.h"
+#include "tests/support/tiles.h"
 
 namespace candela {
 namespace {
-
-View room_view(uint32_t side) {
-    View view;
-    view.camera.world_from_camera = look_at(Vec3(0, 1.8f, 5), Vec3(0, 1.6f, 0), Vec3(0, 1, 0));
-    view.extent = Vec2u(side);
-    return view;
-}
-
-std::vector<PixelSample> tile_at(uint32_t left, uint32_t top, uint32_t index, PathSharing sharing) {
-    std::vector<PixelSample> out;
-    for (uint32_t y = 0; y < reuse_tile; ++y) {
-        for (uint32_t x = 0; x < reuse_tile; ++x)
-            out.push_back({static_cast<uint16_t>(left + x), static_cast<uint16_t>(top + y), index, sharing});
-    }
-    return out;
-}
 
 // The noise of single pixels, relative to the picture without sharing.
 double noise_ratio(const World& world, const View& view) {
@@ -34,8 +19,8 @@ double noise_ratio(const World& world, const View& view) {
         std::vector<RadianceSample> a(size_t{reuse_tile} * reuse_tile), b(a.size());
         const PathSharing sharing = k == 0 ? PathSharing::none : PathSharing::group;
         for (uint32_t index = 0; index < 64; index += 2) {
-            trace_batch(world, view, {}, tile_at(0, 0, index, sharing), a, counts);
-            trace_batch(world, view, {}, tile_at(0, 0, index + 1, sharing), b, counts);
+            trace_batch(world, view, {}, test::tile_at(0, 0, index, sharing), a, counts);
+            trace_batch(world, view, {}, test::tile_at(0, 0, index + 1, sharing), b, counts);
             for (size_t i = 0; i < a.size(); ++i)
                 noise[k] += static_cast<double>(sqr(luminance(a[i].radiance) - luminance(b[i].radiance)));
         }
@@ -70,7 +55,7 @@ std::shared_ptr<const World> open_field() {
 }
 
 TEST(ReusePlan, ABoxIsLessNoisy) {
-    EXPECT_LT(noise_ratio(*lit_box(), room_view(16)), 0.4);
+    EXPECT_LT(noise_ratio(*lit_box(), test::room_view(16)), 0.4);
 }
 
 PathSharing planned(const World& world, const View& view, uint32_t first_left) {
@@ -81,7 +66,7 @@ PathSharing planned(const World& world, const View& view, uint32_t first_left) {
         for (uint32_t tile = 0; tile < 4; ++tile) {
             // In another order every time.
             const uint32_t t = (tile + first_left) % 4;
-            const auto samples = tile_at(t % 2 * reuse_tile, t / 2 * reuse_tile, index, plan.sharing(index, t));
+            const auto samples = test::tile_at(t % 2 * reuse_tile, t / 2 * reuse_tile, index, plan.sharing(index, t));
             trace_batch(world, view, {}, samples, traced, counts);
             plan.note(t, samples, traced);
         }
@@ -92,8 +77,8 @@ PathSharing planned(const World& world, const View& view, uint32_t first_left) {
 
 TEST(ReusePlan, SharesInABoxAndNotUnderTheSky) {
     for (const uint32_t first : {0u, 1u, 3u}) {
-        EXPECT_EQ(planned(*lit_box(), room_view(32), first), PathSharing::group);
-        EXPECT_EQ(planned(*open_field(), room_view(32), first), PathSharing::none);
+        EXPECT_EQ(planned(*lit_box(), test::room_view(32), first), PathSharing::group);
+        EXPECT_EQ(planned(*open_field(), test::room_view(32), first), PathSharing::none);
     }
     EXPECT_EQ(ReusePlan().sharing(7, 0), PathSharing::none);
 }
