@@ -32,7 +32,10 @@ void LoadContext::charge(uint64_t bytes, const std::string& where) {
                                   std::to_string(options_.max_memory_bytes) +
                                   " bytes allows; --limit-memory raises it");
     }
-    net_bytes_ += bytes;
+    const uint64_t net = net_bytes_ += bytes;
+    uint64_t most = most_bytes_.load();
+    while (net > most && !most_bytes_.compare_exchange_weak(most, net)) {
+    }
 }
 
 void LoadContext::release(uint64_t bytes) {

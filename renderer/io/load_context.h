@@ -51,6 +51,8 @@ class LoadContext {
     std::function<void()> take_relief() { return std::exchange(relief_, nullptr); }
     // What charge has booked through this context and release has not given back.
     uint64_t net_bytes() const { return net_bytes_; }
+    // The most that this has been.
+    uint64_t most_bytes() const { return most_bytes_; }
 
     // Throws LoadError where value is over a limit of the options. unit: "nodes"; option: "--limit-count".
     void check_limit(uint64_t value, uint64_t limit, const char* unit, const char* option,
@@ -65,7 +67,7 @@ class LoadContext {
     Diagnostics& diagnostics_;
     const LoadOptions& options_;
     std::function<void()> relief_;
-    std::atomic<uint64_t> net_bytes_ = 0;
+    std::atomic<uint64_t> net_bytes_ = 0, most_bytes_ = 0;
     std::atomic<uint64_t> own_bytes_;
     std::atomic<uint64_t>& used_bytes_;
 };

@@ -253,11 +253,12 @@ class PrimitivesLoader {
         Diagnostics diagnostics;
         std::exception_ptr error;
         bool over_limit = false;
-        uint64_t booked_bytes = 0;
+        uint64_t booked_bytes = 0, most_bytes = 0;
     };
     std::vector<Part> parts() const;
     void load(LoadContext& context, AccessorReader& accessors, size_t first, size_t last);
     bool run_together();
+    bool fits_in_order(const std::vector<Part>& all, uint64_t held_bytes) const;
 
     LoadContext& context_;
     AccessorReader& accessors_;
@@ -289,7 +290,18 @@ std::vector<PrimitivesLoader::Part> PrimitivesLoader::parts() const {
     return out;
 }
 
-// False where there was not memory enough for several at a time: nothing has happened then.
+// Whether each would have had memory enough after those before it. Several at a time may come by with a little less, as
+// chance has it.
+bool PrimitivesLoader::fits_in_order(const std::vector<Part>& all, uint64_t held_bytes) const {
+    for (const Part& part : all) {
+        if (part.over_limit || held_bytes + part.most_bytes > context_.options().max_memory_bytes) return false;
+        if (part.error) break;
+        held_bytes += part.booked_bytes;
+    }
+    return true;
+}
+
+// False where there was not memory enough for several at a time, or not for all in order: nothing has happened then.
 bool PrimitivesLoader::run_together() {
     // Primitives often share their views.
     std::vector<uint32_t> read;
@@ -301,6 +313,7 @@ bool PrimitivesLoader::run_together() {
     accessors_.decode_early(read);
 
     std::vector<Part> all = parts();
+    const uint64_t held_bytes = context_.net_bytes();
     std::atomic<size_t> first_failed{all.size()};
     parallel_for_each(all.size(), 1, [&](size_t i) {
         // What comes after a failure need not be known; what comes before must.
@@ -317,11 +330,12 @@ bool PrimitivesLoader::run_together() {
             part.error = std::current_exception();
         }
         part.booked_bytes = context.net_bytes();
+        part.most_bytes = context.most_bytes();
         size_t lowest = first_failed.load();
         while (part.error && i < lowest && !first_failed.compare_exchange_weak(lowest, i)) {
         }
     });
-    if (std::any_of(all.begin(), all.end(), [](const Part& part) { return part.over_limit; })) {
+    if (!fits_in_order(all, held_bytes)) {
         for (const Part& part : all)
             context_.release(part.booked_bytes);
         return false;

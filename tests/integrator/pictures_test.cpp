@@ -154,6 +154,21 @@ TEST_F(Pictures, AreMissedWithoutHarm) {
     EXPECT_GT(luminance(sum) / static_cast<float>(seen.size()), 0.2f);
 }
 
+// White in the place of what is missing would be a mirror, a lamp, or a tilted surface.
+TEST_F(Pictures, AreStoodInForByWhatMostOfThemShow) {
+    const std::vector<Material> seen = without_pictures(still_to_come(*scene_)).materials;
+    EXPECT_FALSE(seen[1].normal.valid() || seen[1].clearcoat.normal.valid());
+    EXPECT_EQ(seen[1].clearcoat.factor, 0.0f);
+    EXPECT_EQ(seen[2].metallic_factor, 0.0f);
+    EXPECT_FALSE(seen[2].anisotropy.texture.valid());
+    EXPECT_EQ(seen[2].sheen.color_factor, Vec3(0));
+    EXPECT_EQ(seen[5].roughness_factor, 1.0f);
+    EXPECT_EQ(seen[5].specular.color_factor, Vec3(0.04f));
+    EXPECT_EQ(seen[6].emissive_factor, Vec3(0));
+    EXPECT_EQ(seen[7].iridescence.factor, 0.0f);
+    EXPECT_EQ(seen[7].transmission.factor, 1.0f) << "decides on trees";
+}
+
 // A head that says "no alpha" spares the tree the opacity function; the picture is the same.
 TEST_F(Pictures, KnownToBeOpaqueAreNotSeenThrough) {
     Scene coming = still_to_come(*scene_);

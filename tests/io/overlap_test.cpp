@@ -2,12 +2,27 @@
 // Images decode while the rest of the file is read: what is there when, and that nothing depends on who is faster.
 #include <set>
 
+#include <tbb/global_control.h>
+
 #include "tests/io/document.h"
 
 namespace candela {
 namespace {
 
 using namespace test;
+
+// The smallest limit with which the file opens as it should, where nothing happens beside anything else.
+template <typename Opens>
+uint64_t least_memory(uint64_t low, uint64_t high, const Opens& opens) {
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_FALSE(opens(low));
+    EXPECT_TRUE(opens(high));
+    while (high - low > 1) {
+        const uint64_t middle = (low + high) / 2;
+        (opens(middle) ? high : low) = middle;
+    }
+    return high;
+}
 
 class Overlap : public GltfTest {
   protected:
@@ -132,13 +147,41 @@ TEST_F(Overlap, WhereMemoryRunsShortDependsOnTheFileAlone) {
     EXPECT_EQ(seen.size(), 5u) << "none to all of the images";
 }
 
+// A mesh takes more while it is read than after: images that found no room meanwhile have it in the end.
+TEST_F(Overlap, WhatFitsAfterTheMeshesIsThere) {
+    Document source = document();
+    std::vector<uint16_t> corners(300'000);
+    for (size_t i = 0; i < corners.size(); ++i)
+        corners[i] = static_cast<uint16_t>(i % 3);
+    source.json["meshes"][0]["primitives"][0]["indices"] = source.add_accessor(corners, "SCALAR", u16);
+    for (int i = 0; i < image_count; ++i)
+        write_png(folder_ / name(i), ImageRgba8(160, 1200, Rgba8(90)), false);
+    source.finish("data.bin");
+    write("data.bin", {source.bytes.begin(), source.bytes.end()});
+    const std::filesystem::path file = write("scene.gltf", source.json.dump());
+    const auto all_there = [&](uint64_t limit) {
+        options_.max_memory_bytes = limit;
+        return outcome(file) == "xxxx";
+    };
+    const uint64_t enough = least_memory(100'000, 20'000'000, all_there);
+    for (int again = 0; again < 10; ++again)
+        ASSERT_TRUE(all_there(enough));
+    ASSERT_FALSE(all_there(enough - 1));
+}
+
 // Primitives are read several at a time.
 class ManyPrimitives : public GltfTest {
   protected:
     static constexpr int count = 40;
     // Each with positions of its own, so that values of one can be broken.
-    static Document document(const std::set<int>& with_strange_normals, const std::set<int>& with_wrong_indices) {
+    static Document document(const std::set<int>& with_strange_normals, const std::set<int>& with_wrong_indices,
+                             int first_large = 0) {
         Document document;
+        // The first so many are the same triangle again and again, and take longer than the others.
+        std::vector<uint16_t> corners(60'000);
+        for (size_t i = 0; i < corners.size(); ++i)
+            corners[i] = static_cast<uint16_t>(i % 3);
+        const int again = document.add_accessor(corners, "SCALAR", u16);
         for (int i = 0; i < count; ++i) {
             const auto x = static_cast<float>(i);
             const int positions = document.add_accessor<float>({x, 0, 0, x + 1, 0, 0, x, 1, 0}, "VEC3", f32);
@@ -146,7 +189,7 @@ class ManyPrimitives : public GltfTest {
             const int normals = document.add_accessor<float>({0, 0, z, 0, 0, 1, 0, 0, 1}, "VEC3", f32);
             const auto last = static_cast<uint16_t>(with_wrong_indices.contains(i) ? 3 : 2);
             const int indices = document.add_accessor<uint16_t>({0, 1, last}, "SCALAR", u16);
-            document.add_primitive({{"POSITION", positions}, {"NORMAL", normals}}, indices);
+            document.add_primitive({{"POSITION", positions}, {"NORMAL", normals}}, i < first_large ? again : indices);
         }
         Json& meshes = document.json["meshes"];
         for (int i = 1; i < count; ++i)
@@ -170,7 +213,7 @@ TEST_F(ManyPrimitives, ComeInTheOrderOfTheFile) {
 }
 
 TEST_F(ManyPrimitives, FailAtTheFirstThatIsBroken) {
-    const Document broken = document({2, 35}, {9, 10, 22, 39});
+    const Document broken = document({2, 35}, {9, 10, 22, 39}, 9);
     for (int again = 0; again < 20; ++again) {
         try {
             load(broken);
@@ -184,7 +227,7 @@ TEST_F(ManyPrimitives, FailAtTheFirstThatIsBroken) {
 
 // One after the other need less at a time, and what several could not get must not be missing then.
 TEST_F(ManyPrimitives, WhereMemoryRunsShortDependsOnTheFileAlone) {
-    Document source = document({}, {});
+    Document source = document({}, {}, count);
     source.finish("data.bin");
     write("data.bin", {source.bytes.begin(), source.bytes.end()});
     const std::filesystem::path file = write("scene.gltf", source.json.dump());
@@ -197,15 +240,10 @@ TEST_F(ManyPrimitives, WhereMemoryRunsShortDependsOnTheFileAlone) {
             return std::string(error.what());
         }
     };
-    uint64_t low = 1000, high = 4'000'000;
-    ASSERT_EQ(opens(high), "");
-    while (high - low > 1) {
-        const uint64_t middle = (low + high) / 2;
-        (opens(middle).empty() ? high : low) = middle;
-    }
-    for (const uint64_t limit : {low - 50, low, high, high + 1, high + 50}) {
+    const uint64_t enough = least_memory(1000, 40'000'000, [&](uint64_t limit) { return opens(limit).empty(); });
+    for (const uint64_t limit : {enough - 50, enough - 1, enough, enough + 1, enough + 50}) {
         const std::string first = opens(limit);
-        EXPECT_EQ(first.empty(), limit >= high);
+        EXPECT_EQ(first.empty(), limit >= enough);
         for (int again = 0; again < 10; ++again)
             ASSERT_EQ(opens(limit), first) << limit;
     }

@@ -126,6 +126,19 @@ TEST_F(PreviewTest, ThatIsReplacedIsNotWhatComesBack) {
     finish();
     EXPECT_EQ(difference(before, picture()), 0.0);
 
+    // Nor is it where another preview has been shown since.
+    viewer_->open(textured);
+    wait_for_picture_of("candela - alpha_cards.glb");
+    viewer_->open(textured);
+    wait_for_picture_of("candela - alpha_cards.glb");
+    fails_ = go_on_ = true;
+    finish();
+    EXPECT_EQ(viewer_->title(), "candela - cornell_box.glb");
+    press(Key::escape);
+    finish();
+    EXPECT_EQ(difference(before, picture()), 0.0);
+    fails_ = go_on_ = false;
+
     // A scene that can be read wins over both.
     viewer_->open(textured);
     wait_for_picture_of("candela - alpha_cards.glb");
