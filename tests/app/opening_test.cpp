@@ -46,11 +46,12 @@ TEST(Opening, BesideOneAnotherIsTheSameToTheBit) {
         bool sky;
         bool has_pictures;
     };
-    // Normal maps and blends; lamps of pictures; masks and blends; skins; its own environment; textures moved by an
-    // animation; one without pictures.
+    // Normal maps and blends; lamps of pictures; nothing but pictures that shine; masks and blends; skins; textures
+    // moved by an animation; one without pictures.
     for (const Case& each :
          {Case{"FlightHelmet/FlightHelmet.gltf", {}, true, true},
           Case{"EmissiveStrengthTest/glTF/EmissiveStrengthTest.gltf", {}, false, true},
+          Case{"TransmissionTest/glTF/TransmissionTest.gltf", {}, false, true},
           Case{"AlphaBlendModeTest/glTF/AlphaBlendModeTest.gltf", {}, true, true},
           Case{"CesiumMan/glTF-Binary/CesiumMan.glb", 0.6, true, true}, Case{"Fox/glTF/Fox.gltf", 1.0, true, true},
           Case{"BoxAnimated/glTF-Binary/BoxAnimated.glb", 0.5, true, false}}) {

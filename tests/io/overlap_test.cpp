@@ -4,6 +4,8 @@
 
 #include <tbb/global_control.h>
 
+#include "renderer/io/files.h"
+#include "renderer/io/images.h"
 #include "tests/io/document.h"
 
 namespace candela {
@@ -145,6 +147,19 @@ TEST_F(Overlap, WhereMemoryRunsShortDependsOnTheFileAlone) {
         seen.insert(shown);
     }
     EXPECT_EQ(seen.size(), 5u) << "none to all of the images";
+}
+
+TEST_F(Overlap, NothingIsDecodedOnceItIsCancelled) {
+    const std::vector<std::byte> bytes = read_file(folder_ / name(0));
+    const std::vector<std::span<const std::byte>> sources(3, bytes);
+    std::atomic<bool> cancel{false};
+    ImageDecodeOptions options;
+    options.cancel = &cancel;
+    for (const DecodedImage& image : decode_images(sources, options))
+        EXPECT_EQ(image.pixels.width(), 160) << image.error;
+    cancel = true;
+    for (const DecodedImage& image : decode_images(sources, options))
+        EXPECT_EQ(image.error, "cancelled");
 }
 
 // A mesh takes more while it is read than after: images that found no room meanwhile have it in the end.
