@@ -7,6 +7,7 @@
 #include "app/commands.h"
 #include "app/picture_file.h"
 #include "app/viewer/compared_settings.h"
+#include "app/viewer/recording.h"
 
 namespace candela {
 
@@ -242,6 +243,9 @@ void add_viewer_options(CLI::App& command, RenderOptions& options, RawRenderOpti
     command.add_option("--wipe", options.wipe, "where the map begins: 0 at the left edge, 1 at the right (0.5)")
         ->check(CLI::Range(0.0f, 1.0f))
         ->type_name("X");
+    command.add_option("--open", raw.open, "panels to show: panels,statistics,help")->type_name("LIST");
+    command.add_option("--inspect", raw.inspect, "the panel of a pixel, and the path of its brightest sample")
+        ->type_name("X,Y");
 }
 
 void finish_render_options(const RawRenderOptions& raw, RenderOptions& options) {
@@ -293,11 +297,62 @@ void check_viewer_options(const RenderOptions& options) {
     if (!options.stats_file.empty() && options.stats_file != "-") check_output(options.stats_file);
 }
 
+// The words without some options that take a value, and without some that take none.
+std::vector<std::string> without(const std::vector<std::string>& words, const std::vector<std::string>& options,
+                                 const std::vector<std::string>& flags) {
+    std::vector<std::string> out;
+    for (size_t i = 0; i < words.size(); ++i) {
+        const std::string name = words[i].substr(0, words[i].starts_with("--") ? words[i].find('=') : 2);
+        if (std::find(flags.begin(), flags.end(), words[i]) != flags.end()) continue;
+        if (std::find(options.begin(), options.end(), name) == options.end()) {
+            out.push_back(words[i]);
+        } else if (words[i] == name) {
+            ++i;
+        }
+    }
+    return out;
+}
+
+// What of the command line of "candela view" makes the session what it is.
+std::vector<std::string> session_words(int argc, char** argv, const char* command) {
+    std::vector<std::string> words(argv + 1, argv + argc);
+    const auto found = std::find(words.begin(), words.end(), command);
+    if (found != words.end()) words.erase(found);
+    return without(words, {"--record", "--stats", "-t", "--threads", "--replay", "-o", "--output"},
+                   {"--quiet", "-v", "--ui", "--no-ui"});
+}
+
 std::string joined(int argc, char** argv) {
     std::string out = "candela";
     for (int i = 1; i < argc; ++i)
         out += std::string(" ") + argv[i];
     return out;
+}
+
+// A picture of what a recorded session led to; what stands on the command line comes after what was recorded.
+ExitStatus run_replayed_screenshot(const std::string& path, const RenderOptions& asked, bool with_interface,
+                                   const std::vector<std::string>& words) {
+    if (!asked.scene.empty())
+        throw usage("--replay " + path + ": the recording names its scene; leave " + asked.scene + " out");
+    if (asked.resolution) throw usage("--replay " + path + ": the recording has its own --resolution; leave it out");
+    const Recording recording = read_recording(path);
+    RenderOptions options;
+    try {
+        std::vector<std::string> all = recording.arguments;
+        all.insert(all.end(), words.begin(), words.end());
+        options = parse_view_options(all);
+    } catch (const CommandError& error) {
+        throw CommandError(ExitStatus::unreadable_scene,
+                           fmt::format("{}:{}: {}", path, recording.arguments_line, error.what()));
+    }
+    options.output = asked.output;
+    options.stats_file = asked.stats_file;
+    options.threads = asked.threads;
+    options.quiet = asked.quiet;
+    options.verbose = asked.verbose;
+    // The picture is the same wherever it is written and whoever computes it, so its file is too.
+    options.command = "candela screenshot --replay " + path;
+    return run_replay(recording, options, with_interface);
 }
 
 ExitStatus dispatch(int argc, char** argv) {
@@ -310,18 +365,20 @@ ExitStatus dispatch(int argc, char** argv) {
     add_render_options(app, render, raw);
     CLI::App* view_command = app.add_subcommand("view", "open the window (also without a command)");
     add_render_options(*view_command, render, raw);
-    for (CLI::App* command : {&app, view_command})
+    for (CLI::App* command : {&app, view_command}) {
         add_viewer_options(*command, render, raw);
+        command->add_option("--record", render.record, "writes what is done in the window, for screenshot --replay")
+            ->type_name("FILE");
+    }
 
     bool with_interface = true;
     CLI::App* screenshot_command = app.add_subcommand("screenshot", "the viewer's own picture, drawn off-screen");
     add_render_options(*screenshot_command, render, raw);
     screenshot_command->add_option("-o,--output", render.output, "ends in .png")->required()->type_name("OUT.png");
     add_viewer_options(*screenshot_command, render, raw);
-    screenshot_command->add_option("--open", raw.open, "panels to show: panels,statistics,help")->type_name("LIST");
-    screenshot_command
-        ->add_option("--inspect", raw.inspect, "the panel of a pixel, and the path of its brightest sample")
-        ->type_name("X,Y");
+    std::string replay;
+    screenshot_command->add_option("--replay", replay, "plays what view --record wrote, then takes the picture")
+        ->type_name("FILE");
     screenshot_command->add_flag("--ui,!--no-ui", with_interface, "with its panels, or only the picture");
 
     CLI::App* render_command = app.add_subcommand("render", "render without a display");
@@ -383,7 +440,12 @@ ExitStatus dispatch(int argc, char** argv) {
     finish_render_options(raw, render);
     if (*render_command) return run_render(render);
     check_viewer_options(render);
+    if (!replay.empty())
+        return run_replayed_screenshot(replay, render, with_interface, session_words(argc, argv, "screenshot"));
     if (*screenshot_command) return run_screenshot(render, with_interface);
+    render.arguments = session_words(argc, argv, *view_command ? "view" : "");
+    if (!render.record.empty() && render.seconds)
+        throw usage("--time and --record exclude each other: a replay counts samples; use --spp or --until-error");
     const std::string extension = extension_of(render.scene);
     std::error_code error;
     if (!*view_command && !render.scene.empty() && extension != ".gltf" && extension != ".glb" &&
@@ -394,6 +456,26 @@ ExitStatus dispatch(int argc, char** argv) {
 }
 
 }  // namespace
+
+RenderOptions parse_view_options(const std::vector<std::string>& words) {
+    CLI::App app;
+    app.set_help_flag();
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    RenderOptions options;
+    RawRenderOptions raw;
+    add_render_options(app, options, raw);
+    add_viewer_options(app, options, raw);
+    try {
+        app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    } catch (const CLI::ParseError& error) {
+        throw usage(error.what());
+    }
+    for (const std::string& word : words)
+        options.command += (options.command.empty() ? "" : " ") + word;
+    finish_render_options(raw, options);
+    check_viewer_options(options);
+    return options;
+}
 
 const char* version_line() {
     return "candela " CANDELA_VERSION;

@@ -7,8 +7,12 @@
 
 namespace candela {
 
+struct Recording;
+
 ExitStatus run_view(const RenderOptions& options);
 ExitStatus run_screenshot(const RenderOptions& options, bool with_interface);
+// The same of what a recorded session led to. options: the recording's and the command line's.
+ExitStatus run_replay(const Recording& recording, const RenderOptions& options, bool with_interface);
 ExitStatus run_render(const RenderOptions& options);
 ExitStatus run_info(const InfoOptions& options);
 ExitStatus run_compare(const CompareOptions& options);

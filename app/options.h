@@ -60,6 +60,8 @@ struct RenderOptions {
     double frame_time_ms = 1000.0 / 30;     // how often a young picture is shown anew, and how fine it begins
     bool light_groups = false;              // samples are kept apart by their lights
     uint64_t limit_views_bytes = uint64_t{512} << 20;  // for the samples of views that were left
+    std::string record;                                // file of the session; empty: it is not recorded
+    std::vector<std::string> arguments;                // the command line's, as far as a recording needs them
     std::string stats_file;                            // "-": standard output
     std::string output;
     bool quiet = false;

@@ -7,10 +7,20 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/statistics_file.h"
-#include "app/viewer/viewer.h"
+#include "app/viewer/session_recorder.h"
 #include "app/viewer/window.h"
 
 namespace candela {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace
 
 ExitStatus run_view(const RenderOptions& requested) {
     RenderOptions options = requested;
@@ -20,31 +30,47 @@ ExitStatus run_view(const RenderOptions& requested) {
         throw CommandError(ExitStatus::unreadable_scene, options.scene + ": there is no such file");
     }
     const InterruptGuard guard;
-    const auto start = std::chrono::steady_clock::now();
+    const Clock::time_point start = Clock::now();
     double first_frame_seconds = 0;
     try {
         Window window(options.resolution.value_or(Vec2u(1280, 720)), "candela");
-        Viewer viewer(options, window);
+        // What happens in one round of the loop happens at one time, so that a replay can have it happen again.
+        double now_s = 0;
+        ViewerOptions viewer_options;
+        viewer_options.now_s = [&now_s] { return now_s; };
+        std::optional<SessionRecorder> recorder;
+        if (!options.record.empty()) {
+            recorder.emplace(options.record, options.arguments, window.framebuffer_extent());
+            // Whether a preview came before some input would be chance.
+            viewer_options.previews = false;
+        }
+        Viewer viewer(options, window, viewer_options);
         std::string title = "candela";
         std::string reported;
         while (!viewer.wants_to_close() && !InterruptGuard::interrupted()) {
-            for (const InputEvent& event : window.wait_for_events(viewer.seconds_until_update()))
+            const std::vector<InputEvent> events = window.wait_for_events(viewer.seconds_until_update());
+            // In microseconds, so that it is short to write.
+            now_s = std::round(1e6 * seconds_since(start)) / 1e6;
+            if (recorder) recorder->begin_frame(viewer, now_s, events);
+            for (const InputEvent& event : events)
                 viewer.handle(event);
             const bool draws = viewer.update();
-            if (viewer.frame() != nullptr && first_frame_seconds == 0) {
-                first_frame_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-            }
+            if (viewer.frame() != nullptr && first_frame_seconds == 0) first_frame_seconds = seconds_since(start);
             if (draws) {
                 viewer.draw();
                 window.swap_buffers();
+                // The latency ends here; nothing else looks at the clock before the next round.
+                now_s = seconds_since(start);
                 viewer.presented();
             }
+            if (recorder) recorder->end_frame(viewer, draws);
             if (viewer.title() != title) window.set_title(title = viewer.title());
             if (viewer.load_error() != reported) {
                 reported = viewer.load_error();
                 if (!reported.empty()) fmt::print(stderr, "candela: {}\n", reported);
             }
         }
+        if (recorder) recorder->finish();
         // The record is of the last view.
         if (viewer.frame() != nullptr) {
             write_statistics({&viewer.model().options, &viewer.model().job, viewer.model().status, viewer.frame(), 0.0,

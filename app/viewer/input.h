@@ -47,6 +47,10 @@ struct KeyPressed {
 struct TextTyped {
     uint32_t code_point = 0;
 };
+// The clipboard, where the person asked for it; comes before the key that did.
+struct TextPasted {
+    std::string text;
+};
 struct FilesDropped {
     std::vector<std::string> paths;
     Modifiers modifiers;
@@ -58,9 +62,11 @@ struct WindowResized {
 };
 // The window must be drawn again, as after another one covered it.
 struct WindowExposed {};
+// The scene's file, or one that it names, is another now.
+struct SceneFileChanged {};
 struct CloseRequested {};
 
-using InputEvent = std::variant<MouseMoved, MousePressed, Scrolled, KeyPressed, TextTyped, FilesDropped, WindowResized,
-                                WindowExposed, CloseRequested>;
+using InputEvent = std::variant<MouseMoved, MousePressed, Scrolled, KeyPressed, TextTyped, TextPasted, FilesDropped,
+                                WindowResized, WindowExposed, SceneFileChanged, CloseRequested>;
 
 }  // namespace candela

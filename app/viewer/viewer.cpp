@@ -8,6 +8,7 @@
 
 #include "app/picture_file.h"
 #include "app/viewer/panels.h"
+#include "app/viewer/steady_figures.h"
 #include "renderer/integrator/aov.h"
 
 namespace candela {
@@ -213,9 +214,10 @@ void Viewer::bring_back() {
 
 void Viewer::take_loaded() {
     // A pose waits until the one before has been seen.
-    if (load_is_ == LoadKind::pose && !pose_was_seen()) return;
+    if (loads_taken_ >= loads_allowed_ || (load_is_ == LoadKind::pose && !pose_was_seen())) return;
     std::optional<SceneLoader::Result> result = loader_.take();
     if (!result) return;
+    ++loads_taken_;
     model_.loading = false;
     if (!result->scene) {
         load_error_ = result->error;
@@ -337,6 +339,7 @@ void Viewer::take_frame() {
     if (!model_.has_scene()) return;
     const bool was_done = model_.status.done;
     model_.status = session_->status();
+    if (viewer_options_.steady_figures) make_steady(model_.status);
     if (model_.status.done && !was_done) redraws_ = std::max(redraws_, 1);
     if (!model_.status.error.empty() && model_.notice != model_.status.error) notify(model_.status.error, true);
     frame_ = session_->latest();
@@ -350,7 +353,7 @@ void Viewer::take_frame() {
     model_.frame_serial = frame_->serial;
     model_.is_reprojected = frame_->is_reprojected;
     model_.film = frame_->statistics;
-    model_.history = frame_->history;
+    model_.history = viewer_options_.steady_figures ? steady(frame_->history) : frame_->history;
     model_.frame_extent = {frame_->image.width(), frame_->image.height()};
     hold_until_s_ = 0;
     redraws_ = std::max(redraws_, 1);
@@ -505,6 +508,23 @@ bool Viewer::finished() const {
     if (reference_is_missing() || inspection_is_missing()) return false;
     if (model_.comparison.shown && model_.has_scene() && !model_.comparison.status.done) return false;
     return !model_.has_scene() || model_.status.done;
+}
+
+bool Viewer::finished_rendering() const {
+    return !dirty_ && (!model_.has_scene() || model_.status.done || model_.status.paused);
+}
+
+uint32_t Viewer::shown_samples() const {
+    if (dirty_ || !model_.has_scene() || model_.frame_epoch != model_.status.epoch) return 0;
+    return model_.film.min_samples;
+}
+
+bool Viewer::clock_matters() const {
+    return model_.playback.playing;
+}
+
+void Viewer::show_interface(bool shown) {
+    model_.show_interface = shown && ui_ != nullptr;
 }
 
 double Viewer::seconds_until_update() const {

@@ -15,6 +15,8 @@ struct ViewerOptions {
     bool interface = true;          // false: nothing but the picture is ever drawn
     std::function<double()> now_s;  // a clock; empty: the steady one
     bool previews = true;           // a scene is shown without its pictures until they are decoded
+    bool steady_figures = false;    // steady_figures.h
+    bool touches_files = true;      // false: what would save a picture only says so
     std::function<decltype(prepare_render)> prepare = prepare_render;  // tests put their own here
 };
 
@@ -42,7 +44,19 @@ class Viewer {
     bool wants_to_close() const { return close_; }
     // Nothing loads, and the render has met its limits or cannot.
     bool finished() const;
+    // Without loading: neither goes it on by itself.
+    bool finished_rendering() const;
     std::string title() const;
+
+    // For recordings. Of each pixel of the view as it is now, in the picture that is shown.
+    uint32_t shown_samples() const;
+    // What the clock says changes the scene or the view.
+    bool clock_matters() const;
+    // How many loads of any kind have ended and were taken in; no more than allowed are.
+    uint32_t loads_taken() const { return loads_taken_; }
+    void allow_loads(uint32_t count) { loads_allowed_ = count; }
+    bool loads() const { return loader_.busy(); }
+    void show_interface(bool shown);
 
     // Opens a scene in the background; what is shown stays until there is something of it to show, and comes back after
     // a failure.
@@ -191,6 +205,7 @@ class Viewer {
     SceneLoader loader_;
     LoadKind load_is_ = LoadKind::scene;
     bool load_keeps_view_ = false, environment_dirty_ = false;
+    uint32_t loads_taken_ = 0, loads_allowed_ = std::numeric_limits<uint32_t>::max();
     // While a preview is shown: what was before it, without a world where nothing was; and whether it is of the load
     // that runs.
     std::optional<Shown> before_preview_;

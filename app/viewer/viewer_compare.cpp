@@ -4,6 +4,7 @@
 
 #include <thread>
 
+#include "app/viewer/steady_figures.h"
 #include "app/viewer/viewer.h"
 
 namespace candela {
@@ -56,13 +57,14 @@ void Viewer::take_other_frame() {
     if (!model_.comparison.shown) return;
     Comparison& comparison = model_.comparison;
     comparison.status = other_session_->status();
+    if (viewer_options_.steady_figures) make_steady(comparison.status);
     const Frame* frame = other_session_->latest();
     const bool is_new = frame != nullptr && (other_frame_ == nullptr || frame->serial != comparison.serial);
     other_frame_ = frame;
     if (!is_new) return;
     comparison.serial = frame->serial;
     comparison.film = frame->statistics;
-    comparison.history = frame->history;
+    comparison.history = viewer_options_.steady_figures ? steady(frame->history) : frame->history;
     if (!reference_is_uploaded_) display_.upload_other(frame->image);
     redraws_ = std::max(redraws_, 1);
 }

@@ -56,6 +56,10 @@ void Viewer::save_denoised(const std::string& path) const {
 // "_denoised" after the number.
 void Viewer::save_next(bool denoised) {
     if (!model_.has_scene()) return;
+    if (!viewer_options_.touches_files) {
+        notify("the picture would be saved now");
+        return;
+    }
     const std::string stem = "candela-" + std::filesystem::path(model_.job.scene_path).stem().string();
     std::string name;
     for (int number = 1; name.empty(); ++number) {

@@ -63,6 +63,37 @@ TEST_F(CommandLine, ThePictureDoesNotDependOnThreads) {
     EXPECT_EQ(compared.status, 0) << compared.text;
 }
 
+TEST_F(CommandLine, AReplayedPictureIsTheSameFileForAnyThreads) {
+    const std::string recording = " --replay tests/screenshots/recordings/cornell_box_orbited.rec --quiet ";
+    const auto contents = [&](const std::string& name, const std::string& more) {
+        const Outcome outcome = run("screenshot" + recording + more + " -o " + file(name));
+        EXPECT_EQ(outcome.status, 0) << outcome.text;
+        std::ifstream picture(folder_ / name, std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(picture), {});
+    };
+    const std::string first = contents("a.png", "-t 1");
+    EXPECT_TRUE(first == contents("b.png", "-t 3"));
+    EXPECT_TRUE(first != contents("c.png", "--seed 1")) << "what stands on the command line does not count";
+}
+
+TEST_F(CommandLine, ARecordingThatIsNoneSaysWhereAndWhy) {
+    std::ofstream(folder_ / "a.rec") << "candela recording 1\narguments assets/cornell_box.glb --sp 4\nwindow 8 8\n";
+    std::ofstream(folder_ / "b.rec") << "candela recording 1\narguments missing.glb\nwindow 8 8\n";
+    const std::tuple<std::string, int, std::string> cases[] = {
+        {"README.md", 3, "README.md:1: a recording begins with"},
+        {"missing.rec", 3, "missing.rec: there is no such recording"},
+        {file("a.rec"), 3, "a.rec:2: "},
+        {file("b.rec"), 3, "missing.glb: "},
+        {file("b.rec") + " assets/cornell_box.glb", 2, "leave assets/cornell_box.glb out"}};
+    for (const auto& [recording, status, reason] : cases) {
+        const Outcome outcome = run("screenshot --quiet -o " + file("a.png") + " --replay " + recording);
+        EXPECT_EQ(outcome.status, status) << recording;
+        EXPECT_NE(outcome.text.find(reason), std::string::npos) << outcome.text;
+        EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "a.png"));
+}
+
 TEST_F(CommandLine, InfoSaysWhatTheFileHolds) {
     // A chain of 100 nodes, a metadata packet, and an extension of every kind.
     std::string nodes = "{\"name\": \"root\", \"children\": [1]}";

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What the viewer shows of each own scene, against stored pictures and their noise.
+// What the viewer shows of each own scene, and after recorded sessions, against stored pictures and their noise.
 // CANDELA_UPDATE_REFERENCES=1 renders and stores them anew: look at the pictures before you commit them.
 #include <chrono>
 #include <cstdlib>
 #include <thread>
 
-#include "app/gl/osmesa_context.h"
-#include "app/viewer/viewer.h"
+#include "app/command_line.h"
+#include "app/viewer/replay.h"
 #include "tests/screenshots/reference.h"
 
 namespace candela::test {
@@ -18,10 +18,9 @@ constexpr uint32_t first_test_seed = 1000;  // none of the references'
 
 struct Shot {
     const char* name;
-    const char* scene;
+    const char* scene = "";  // empty: what the recording of that name leads to
     ToneCurve curve = ToneCurve::neutral;
     const char* hdri = "";
-    bool orbited = false;
 };
 
 void PrintTo(const Shot& shot, std::ostream* out) {
@@ -29,7 +28,9 @@ void PrintTo(const Shot& shot, std::ostream* out) {
 }
 
 constexpr Shot shots[] = {{"cornell_box", "assets/cornell_box.glb"},
-                          {"cornell_box_orbited", "assets/cornell_box.glb", ToneCurve::agx, "", true},
+                          {"cornell_box_orbited"},
+                          {"cards_dropped"},
+                          {"lights_from_above"},
                           {"veach_plates", "assets/veach_plates.glb", ToneCurve::aces},
                           {"many_lights", "assets/many_lights.glb", ToneCurve::linear},
                           {"alpha_cards", "assets/alpha_cards.glb", ToneCurve::neutral, "assets/sky.hdr"},
@@ -39,8 +40,20 @@ std::filesystem::path reference_path(const Shot& shot) {
     return std::filesystem::path("tests/screenshots/references") / (std::string(shot.name) + ".exr");
 }
 
-// The viewer's picture without panels, of the view that the events lead to.
+// What the recorded session led to, without panels.
+ImageRgba8 replay(const Shot& shot, uint32_t seed, float exposure_ev) {
+    const Recording recording = read_recording("tests/screenshots/recordings/" + std::string(shot.name) + ".rec");
+    RenderOptions options = parse_view_options(recording.arguments);
+    options.integrator.seed = seed;
+    options.tone.exposure_ev += exposure_ev;
+    Replay replay(recording, options);
+    replay.play();
+    return replay.picture(false);
+}
+
+// The viewer's picture without panels.
 ImageRgba8 photograph(const Shot& shot, uint32_t seed, float exposure_ev = 0) {
+    if (shot.scene[0] == '\0') return replay(shot, seed, exposure_ev);
     RenderOptions options;
     options.scene = shot.scene;
     options.hdri = shot.hdri;
@@ -49,22 +62,11 @@ ImageRgba8 photograph(const Shot& shot, uint32_t seed, float exposure_ev = 0) {
     options.tone = {exposure_ev, shot.curve};
     const OsmesaContext context(extent);
     Viewer viewer(options, context, {false, {}});
-    const auto settle = [&] {
-        do {
-            viewer.update();
-            std::this_thread::sleep_for(std::chrono::microseconds(200));
-        } while (!viewer.finished());
+    do {
         viewer.update();
-    };
-    settle();
-    if (shot.orbited) {
-        viewer.handle(MouseMoved{{40, 40}});
-        viewer.handle(MousePressed{MouseButton::left, true, {}});
-        viewer.handle(MouseMoved{{46, 43}});
-        viewer.handle(MousePressed{MouseButton::left, false, {}});
-        viewer.handle(Scrolled{{0, 1}});
-        settle();
-    }
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+    } while (!viewer.finished());
+    viewer.update();
     viewer.draw();
     return read_back(context);
 }

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <thread>
 
+#include "renderer/image/codec.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/window/virtual_display.h"
 
 namespace candela::test {
@@ -76,10 +78,12 @@ class WindowTest : public testing::Test {
     }
     void TearDown() override { std::filesystem::remove(error_file_); }
 
-    void open(const std::string& scene, const std::string& spp = "16") {
+    void open(const std::string& scene, const std::string& spp = "16", const std::vector<std::string>& more = {}) {
+        std::vector<std::string> arguments{
+            CANDELA_PROGRAM, scene, "--resolution", std::to_string(width) + "x" + std::to_string(height), "--spp", spp};
+        arguments.insert(arguments.end(), more.begin(), more.end());
         candela_ = std::make_unique<Process>(
-            std::vector<std::string>{CANDELA_PROGRAM, scene, "--resolution",
-                                     std::to_string(width) + "x" + std::to_string(height), "--spp", spp},
+            arguments,
             std::vector<std::string>{"DISPLAY=" + display_->name(), "LIBGL_ALWAYS_SOFTWARE=1", "WAYLAND_DISPLAY="},
             error_file_);
         const std::string id = display_->xdotool("search --sync --onlyvisible --name '^candela - '");
@@ -221,6 +225,31 @@ TEST_F(WindowTest, AResizedWindowRendersItsNewSizeAndReturns) {
     wait_for_return("the old size", first);
     act("key ctrl+q");
     EXPECT_EQ(candela_->wait_for_exit(10), 0);
+}
+
+TEST_F(WindowTest, ARecordedSessionComesBackWithoutAWindow) {
+    const TemporaryFolder folder("candela window recording");
+    const std::string recording = (folder.path() / "a session.rec").string();
+    const std::string replayed = (folder.path() / "replayed.png").string();
+    open(asset("cornell_box.glb"), "16", {"--record", recording});
+    const ImageRgba8 first = wait_for("the first converged picture", says_done);
+    act(on_window("mousemove") + "100 100 mousedown 1 mousemove_relative 30 0 mousemove_relative 30 10 mouseup 1");
+    const ImageRgba8 orbited = wait_for_change("an orbited view", first, 4.0);
+    // A slider of the panels: the field of view.
+    act("key Tab");
+    wait_for_change("the panels", orbited, 1.0);
+    act(on_window("mousemove") + "250 90 sleep 0.2 mousedown 1 sleep 0.2 mousemove_relative 40 0 sleep 0.2 mouseup 1");
+    act("key e");
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    const ImageRgba8 last = wait_for("the last picture", says_done);
+    act("key ctrl+q");
+    ASSERT_EQ(candela_->wait_for_exit(10), 0);
+
+    Process replay({CANDELA_PROGRAM, "screenshot", "--replay", recording, "-o", replayed, "--quiet"}, {}, error_file_);
+    ASSERT_EQ(replay.wait_for_exit(60), 0);
+    std::ifstream file(replayed, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    EXPECT_EQ(difference(last, decode_ldr(std::as_bytes(std::span(bytes)))), 0);
 }
 
 TEST_F(WindowTest, ConvergedItRests) {
