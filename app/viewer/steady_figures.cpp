@@ -12,7 +12,7 @@ constexpr double seconds_per_sample = 0.1;
 void make_steady(SessionStatus& status) {
     status.render_seconds = seconds_per_sample * status.spp;
     status.rays_per_second = status.spp > 0 ? static_cast<double>(status.rays.total()) / status.render_seconds : 0;
-    status.last_cancel_seconds = status.last_first_frame_seconds = 0;
+    status.last_cancel_seconds = status.last_first_frame_seconds = status.last_reproject_seconds = 0;
 }
 
 ErrorHistory steady(const ErrorHistory& history) {

@@ -196,7 +196,7 @@ class Viewer {
     ReferencePicture reference_;
     BackgroundTask<PixelLedger> search_;
     uint32_t searched_samples_ = 0;
-    std::optional<Vec2u> wanted_inspection_;  // once there is a picture
+    std::optional<Vec2u> wanted_inspection_;  // once there is a scene
     uint64_t search_epoch_ = 0;
     Vec2 press_{0};                       // where the last button went down
     bool reference_is_uploaded_ = false;  // in place of other_frame_
@@ -235,6 +235,7 @@ class Viewer {
     std::optional<double> edited_s_;  // the first input that has not been submitted
     ViewHistory view_history_;
     OrbitView submitted_view_;
+    double viewed_since_s_ = 0;   // that view
     bool steps_history_ = false;  // the view that is submitted next comes from the history
 
     const Frame* frame_ = nullptr;

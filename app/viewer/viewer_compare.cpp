@@ -78,12 +78,11 @@ void Viewer::load_reference(const std::string& path) {
     }
     model_.reference = ReferenceView{path, {reference_.image().width(), reference_.image().height()}, {}, {}, false};
     notify(file_name(path) + " is the reference: hold Shift to see it, M shows how far the picture is from it");
-    if (frame_ != nullptr && !reference_.fits(frame_->image)) {
-        notify(
-            fmt::format("{} has {}x{} pixels and the picture {}x{}: only pictures of one size are compared "
-                        "(--resolution)",
-                        file_name(path), reference_.image().width(), reference_.image().height(), frame_->image.width(),
-                        frame_->image.height()));
+    if (model_.reference->extent != size_.pixels) {
+        notify(fmt::format(
+            "{} has {}x{} pixels and the picture {}x{}: only pictures of one size are compared "
+            "(--resolution)",
+            file_name(path), model_.reference->extent.x, model_.reference->extent.y, size_.pixels.x, size_.pixels.y));
     }
 }
 

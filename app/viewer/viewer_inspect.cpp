@@ -15,7 +15,7 @@ constexpr uint32_t most_searched = 16384;
 }  // namespace
 
 void Viewer::inspect_at_cursor() {
-    if (!model_.has_scene() || frame_ == nullptr) return;
+    if (!model_.has_scene()) return;
     const View view{model_.view.camera, glm::max(size_.pixels, Vec2u(1))};
     const Vec2 at = film_uv_of(cursor_) * Vec2(view.extent);
     if (at.x < 0 || at.y < 0 || at.x >= static_cast<float>(view.extent.x) || at.y >= static_cast<float>(view.extent.y))
@@ -63,7 +63,7 @@ void Viewer::renew_inspection() {
 }
 
 void Viewer::update_inspection() {
-    if (wanted_inspection_ && frame_ != nullptr) {
+    if (wanted_inspection_ && model_.has_scene()) {
         const Vec2u pixel = *std::exchange(wanted_inspection_, std::nullopt);
         if (pixel.x < size_.pixels.x && pixel.y < size_.pixels.y) begin_inspection(pixel);
     }

@@ -57,15 +57,16 @@ void Viewer::step_view(int by) {
 void Viewer::remember_view() {
     const OrbitView left = std::exchange(submitted_view_, model_.view);
     const bool stepped = std::exchange(steps_history_, false);
-    if (stepped || left == model_.view) return;
-    const bool looked_at = model_.status.done || model_.status.render_seconds >= looked_at_seconds;
-    if (model_.frame_epoch != 0 && looked_at) view_history_.add(left);
+    if (left == model_.view) return;
+    const bool looked_at = now_s() - std::exchange(viewed_since_s_, now_s()) >= looked_at_seconds;
+    if (looked_at && !stepped) view_history_.add(left);
 }
 
 void Viewer::forget_views() {
     view_history_.clear();
     model_.bookmarks = {};
     submitted_view_ = model_.view;
+    viewed_since_s_ = now_s();
 }
 
 // The groups of the world that is shown, and how bright each of them is.
@@ -85,7 +86,7 @@ bool Viewer::weighing_is_missing() const {
 
 void Viewer::presented() {
     latency_.shown(model_.frame_epoch, now_s());
-    model_.latency = latency_.summary();
+    if (!viewer_options_.steady_figures) model_.latency = latency_.summary();
 }
 
 }  // namespace candela

@@ -30,7 +30,7 @@ void PrintTo(const Shot& shot, std::ostream* out) {
 constexpr Shot shots[] = {{"cornell_box", "assets/cornell_box.glb"},
                           {"cornell_box_orbited"},
                           {"cards_dropped"},
-                          {"lights_from_above"},
+                          {"plates_from_above"},
                           {"veach_plates", "assets/veach_plates.glb", ToneCurve::aces},
                           {"many_lights", "assets/many_lights.glb", ToneCurve::linear},
                           {"alpha_cards", "assets/alpha_cards.glb", ToneCurve::neutral, "assets/sky.hdr"},

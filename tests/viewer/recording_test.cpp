@@ -8,6 +8,7 @@
 #include "app/command_line.h"
 #include "app/viewer/replay.h"
 #include "app/viewer/session_recorder.h"
+#include "app/viewer/steady_figures.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/viewer/sliding_square.h"
 #include "tests/viewer/viewer_fixture.h"
@@ -21,10 +22,11 @@ constexpr Vec2u extent(480, 160);
 // As the window's loop does it, off-screen: one round after the other, at times of the test's own.
 class RecordedSession {
   public:
-    RecordedSession(const std::string& path, const std::vector<std::string>& arguments) : context_(extent) {
+    RecordedSession(const std::string& path, const std::vector<std::string>& arguments, Vec2u window = extent)
+        : context_(window) {
         viewer_ = std::make_unique<Viewer>(parse_view_options(arguments), context_,
                                            replayed_viewer([this] { return now_s_; }));
-        recorder_ = std::make_unique<SessionRecorder>(path, arguments, extent);
+        recorder_ = std::make_unique<SessionRecorder>(path, arguments, window);
         round({});
         settle();
     }
@@ -34,7 +36,10 @@ class RecordedSession {
         for (const InputEvent& event : events)
             viewer_->handle(event);
         const bool draws = viewer_->update();
-        if (draws) viewer_->draw();
+        if (draws) {
+            viewer_->draw();
+            viewer_->presented();
+        }
         recorder_->end_frame(*viewer_, draws);
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
@@ -118,6 +123,31 @@ TEST(Recordings, AViewThatWasOrbitedThroughPanelsComesBackToTheBit) {
     EXPECT_FALSE(std::filesystem::exists(path + ".part"));
 }
 
+TEST(SteadyFigures, NothingThatWasMeasuredIsLeft) {
+    SessionStatus status;
+    status.spp = 4;
+    status.rays.camera = 12;
+    status.render_seconds = status.rays_per_second = status.last_cancel_seconds = status.last_first_frame_seconds =
+        status.last_reproject_seconds = 17;
+    make_steady(status);
+    EXPECT_DOUBLE_EQ(status.render_seconds, 0.4);
+    EXPECT_DOUBLE_EQ(status.rays_per_second, 30);
+    EXPECT_EQ(status.last_cancel_seconds, 0);
+    EXPECT_EQ(status.last_first_frame_seconds, 0);
+    EXPECT_EQ(status.last_reproject_seconds, 0);
+}
+
+// The panel of statistics is all in sight.
+TEST(Recordings, StatisticsOfAnOrbitComeBackToTheBit) {
+    const test::TemporaryFolder folder("candela recording");
+    const std::string path = (folder.path() / "a.rec").string();
+    RecordedSession session(path, {"assets/cornell_box.glb", "--spp", "2", "-t", "2"}, {400, 400});
+    session.press(Key::z);
+    session.drag(MouseButton::left, {60, 60}, {64, 62});
+    const ImageRgba8 seen = session.finish();
+    EXPECT_EQ(seen.pixels(), replayed(path, 3).pixels());
+}
+
 TEST(Recordings, APlayedAnimationStopsAtTheSamePose) {
     const test::TemporaryFolder folder("candela recording");
     const std::string path = (folder.path() / "a.rec").string();
@@ -150,6 +180,39 @@ TEST_F(RecordedViewer, ALoadIsTakenInOnlyWhereTheRecordingHasIt) {
     finish();
     EXPECT_EQ(viewer_->loads_taken(), 1u);
     EXPECT_EQ(viewer_->shown_samples(), 1u);
+}
+
+// What was done while a scene loaded was done to the one before it, also where the load ends sooner now.
+TEST(Recordings, ALoadWaitsForWhatWasDoneBeforeItEnded) {
+    const char* const head = "candela recording 1\narguments assets/cornell_box.glb --spp 300\nwindow 32 24\n";
+    const char* const turned =
+        "frame 1 at 1 samples 0 loads 1\nframe 2 at 2 samples 0 loads 1\n  drop assets/alpha_cards.glb\n"
+        "frame 3 at 3 samples 300 loads 1\n  key 7\nframe 4 at 4 samples 0 loads 2\n";
+    const char* const plain =
+        "frame 1 at 1 samples 0 loads 1\nframe 2 at 2 samples 0 loads 2\n  drop assets/alpha_cards.glb\n";
+    std::vector<OrbitView> views;
+    for (const char* const rounds : {turned, plain}) {
+        std::istringstream stream(std::string(head) + rounds);
+        const Recording recording = parse_recording(stream, "a.rec");
+        Replay replay(recording, parse_view_options(recording.arguments));
+        replay.play();
+        views.push_back(replay.viewer().model().view);
+    }
+    EXPECT_EQ(views[0], views[1]) << "the new scene was turned";
+}
+
+// A click before the first sample, on a pixel of a picture that had not come yet.
+TEST(Recordings, AClickBeforeTheFirstSampleIsAnswered) {
+    std::istringstream stream(
+        "candela recording 1\narguments assets/cornell_box.glb --spp 2\nwindow 32 24\n"
+        "frame 1 at 1 samples 0 loads 1\n"
+        "frame 2 at 2 samples 0 loads 1\n  move 16 12\n  press left\n  release left\n");
+    const Recording recording = parse_recording(stream, "a.rec");
+    Replay replay(recording, parse_view_options(recording.arguments));
+    replay.play();
+    ASSERT_TRUE(replay.viewer().model().inspection.has_value());
+    EXPECT_EQ(replay.viewer().model().inspection->pixel, Vec2u(16, 12));
+    EXPECT_TRUE(replay.viewer().model().inspection->ledger.has_value());
 }
 
 TEST(Recordings, WhatIsWrittenIsRead) {
