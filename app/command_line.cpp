@@ -8,6 +8,7 @@
 #include "app/picture_file.h"
 #include "app/viewer/compared_settings.h"
 #include "app/viewer/recording.h"
+#include "app/viewer/remembered_settings.h"
 
 namespace candela {
 
@@ -240,6 +241,11 @@ void add_viewer_options(CLI::App& command, RenderOptions& options, RawRenderOpti
             "for the samples of views that were left, which going back to one goes on with (512)")
         ->check(CLI::Range(0.0, 1e7))
         ->type_name("MiB");
+    const std::map<std::string, Theme> themes{{"dark", Theme::dark}, {"light", Theme::light}};
+    take_one_of(themes, command.add_option("--theme", options.style.theme, "colours of the panels (dark)"));
+    command.add_option("--ui-scale", options.style.scale, "size of the panels, on top of the screen's own scale (1)")
+        ->check(CLI::Range(smallest_ui_scale, largest_ui_scale))
+        ->type_name("X");
     command.add_option("--wipe", options.wipe, "where the map begins: 0 at the left edge, 1 at the right (0.5)")
         ->check(CLI::Range(0.0f, 1.0f))
         ->type_name("X");
@@ -250,6 +256,8 @@ void add_viewer_options(CLI::App& command, RenderOptions& options, RawRenderOpti
 
 void finish_render_options(const RawRenderOptions& raw, RenderOptions& options) {
     if (!raw.frames.empty()) options.frames = parse_frames(raw.frames);
+    if (options.frames && options.turntable)
+        throw usage("--frames and --turntable exclude each other; give one of them");
     if (options.frames && options.at_seconds) throw usage("--frames and --at exclude each other; give one of them");
     if (!raw.resolution.empty()) options.resolution = parse_resolution(raw.resolution);
     if (!raw.eye.empty()) options.eye = parse_vec3("--eye", raw.eye);
@@ -319,7 +327,7 @@ std::vector<std::string> session_words(int argc, char** argv, const char* comman
     const auto found = std::find(words.begin(), words.end(), command);
     if (found != words.end()) words.erase(found);
     return without(words, {"--record", "--stats", "-t", "--threads", "--replay", "-o", "--output"},
-                   {"--quiet", "-v", "--ui", "--no-ui"});
+                   {"--quiet", "-v", "--ui", "--no-ui", "--watch"});
 }
 
 std::string joined(int argc, char** argv) {
@@ -355,6 +363,22 @@ ExitStatus run_replayed_screenshot(const std::string& path, const RenderOptions&
     return run_replay(recording, options, with_interface);
 }
 
+// What was remembered is as if it stood first on the command line: so a recording has it, and an option overrules it.
+RenderOptions with_remembered(const RenderOptions& asked, const RememberedSettings& remembered) {
+    std::vector<std::string> words = words_of(remembered);
+    words.insert(words.end(), asked.arguments.begin(), asked.arguments.end());
+    RenderOptions options = parse_view_options(words);
+    options.command = asked.command;
+    options.arguments = std::move(words);
+    options.record = asked.record;
+    options.watch = asked.watch;
+    options.stats_file = asked.stats_file;
+    options.threads = asked.threads;
+    options.quiet = asked.quiet;
+    options.verbose = asked.verbose;
+    return options;
+}
+
 ExitStatus dispatch(int argc, char** argv) {
     CLI::App app("candela: watch a glTF scene converge to the light that is in it");
     app.set_version_flag("--version", std::string(version_line()));
@@ -367,6 +391,7 @@ ExitStatus dispatch(int argc, char** argv) {
     add_render_options(*view_command, render, raw);
     for (CLI::App* command : {&app, view_command}) {
         add_viewer_options(*command, render, raw);
+        command->add_flag("--watch", render.watch, "reads the scene anew when one of its files has changed");
         command->add_option("--record", render.record, "writes what is done in the window, for screenshot --replay")
             ->type_name("FILE");
     }
@@ -390,6 +415,11 @@ ExitStatus dispatch(int argc, char** argv) {
         ->add_option("--frames", raw.frames,
                      "pictures A to B of the animation, as OUT_0000.png and so on; picture k shows the time k / fps")
         ->type_name("A:B");
+    render_command
+        ->add_option("--turntable", render.turntable,
+                     "N pictures of a turn around --target, or the middle of the scene, as OUT_0000.png and so on")
+        ->check(CLI::Range(1u, 100000u))
+        ->type_name("N");
     render_command->add_option("--fps", render.fps, "pictures a second of the animation (30)")
         ->check(CLI::Range(1e-3, 1e6))
         ->type_name("N");
@@ -452,7 +482,10 @@ ExitStatus dispatch(int argc, char** argv) {
         !std::filesystem::exists(render.scene, error)) {
         throw usage(render.scene + ": is neither a command nor a .gltf or .glb file; see candela --help");
     }
-    return run_view(render);
+    std::string warning;
+    const RememberedSettings remembered = read_settings(settings_path(), warning);
+    if (!warning.empty() && !render.quiet) fmt::print(stderr, "candela: warning: {}\n", warning);
+    return run_view(with_remembered(render, remembered), remembered);
 }
 
 }  // namespace

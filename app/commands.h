@@ -4,12 +4,14 @@
 
 #include "app/exit_status.h"
 #include "app/options.h"
+#include "app/viewer/remembered_settings.h"
 
 namespace candela {
 
 struct Recording;
 
-ExitStatus run_view(const RenderOptions& options);
+// remembered: what options have taken in already, but for window and recent files.
+ExitStatus run_view(const RenderOptions& options, const RememberedSettings& remembered);
 ExitStatus run_screenshot(const RenderOptions& options, bool with_interface);
 // The same of what a recorded session led to. options: the recording's and the command line's.
 ExitStatus run_replay(const Recording& recording, const RenderOptions& options, bool with_interface);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/viewer/theme.h"
 #include "renderer/film/frame.h"
 #include "renderer/image/compare.h"
 #include "renderer/image/tone.h"
@@ -41,13 +42,15 @@ struct RenderOptions {
     float hdri_intensity = 1;
     std::optional<Vec3> sky;
     ToneSettings tone;
+    UiStyle style;  // of the panels
     LoadLimits limits;
     std::optional<uint32_t> scene_index;
-    std::string variant;               // empty: each primitive's own material
-    std::string animation;             // name or index; empty: the first where a time is given
-    std::optional<double> at_seconds;  // of the animation
-    std::optional<FrameRange> frames;  // pictures of the animation, numbered
-    double fps = 30;                   // picture k shows the time k / fps
+    std::string variant;                // empty: each primitive's own material
+    std::string animation;              // name or index; empty: the first where a time is given
+    std::optional<double> at_seconds;   // of the animation
+    std::optional<FrameRange> frames;   // pictures of the animation, numbered
+    std::optional<uint32_t> turntable;  // pictures of a turn around the scene, numbered
+    double fps = 30;                    // picture k shows the time k / fps
     std::vector<std::string> aovs;
     std::optional<PixelMap> map;            // beside the picture, in the window
     std::vector<std::string> compared;      // words of compared_settings; empty: no comparison
@@ -60,6 +63,7 @@ struct RenderOptions {
     double frame_time_ms = 1000.0 / 30;     // how often a young picture is shown anew, and how fine it begins
     bool light_groups = false;              // samples are kept apart by their lights
     uint64_t limit_views_bytes = uint64_t{512} << 20;  // for the samples of views that were left
+    bool watch = false;                                // the window reads the scene anew when its files change
     std::string record;                                // file of the session; empty: it is not recorded
     std::vector<std::string> arguments;                // the command line's, as far as a recording needs them
     std::string stats_file;                            // "-": standard output

@@ -7,12 +7,14 @@
 
 #include "app/clock_text.h"
 #include "app/commands.h"
+#include "app/frame_sequence.h"
 #include "app/interrupt.h"
 #include "app/picture_file.h"
 #include "app/pose_choice.h"
 #include "app/progress_bar.h"
 #include "app/render_job.h"
 #include "app/statistics_file.h"
+#include "app/viewer/view_control.h"
 #include "renderer/integrator/aov.h"
 
 namespace candela {
@@ -114,13 +116,6 @@ double fraction_done(const RenderRequest& request, const SessionStatus& status) 
     return fraction;
 }
 
-// "walk_0012.png" of "walk.png"
-std::string numbered(const std::string& path, uint32_t number) {
-    const std::filesystem::path whole(path);
-    return (whole.parent_path() / fmt::format("{}_{:04}{}", whole.stem().string(), number, whole.extension().string()))
-        .string();
-}
-
 // Renders pictures one after the other and keeps what the record of the run needs.
 class Pictures {
   public:
@@ -217,19 +212,23 @@ ExitStatus run_render(const RenderOptions& options) {
         for (const std::string& warning : job.warnings)
             fmt::print(stderr, "candela: warning: {}\n", warning);
     }
-    if (!options.frames) {
+    if (!options.frames && !options.turntable) {
         pictures.render(job, options.output, "render", false);
         pictures.write_record(job, std::nullopt);
         return InterruptGuard::interrupted() ? ExitStatus::interrupted : ExitStatus::done;
     }
 
-    // One picture after the other; the first pose is the job's already.
-    const uint32_t animation = choose_animation(options, *job.rest).value_or(0);
-    const auto [first, last] = *options.frames;
+    // One picture after the other; the first is the job's already.
+    const Camera camera = job.request.view.camera;
+    const Vec3 pivot = options.target.value_or(view_of(camera, job.world->bounds).pivot);
+    const uint32_t animation = options.frames ? choose_animation(options, *job.rest).value_or(0) : 0;
+    const auto [first, last] = options.frames.value_or(FrameRange{0, options.turntable.value_or(1) - 1});
     uint32_t written = 0;
     for (uint32_t k = first; k <= last && !InterruptGuard::interrupted(); ++k) {
         const double build_seconds = job.build_seconds;
-        if (k != first) {
+        if (options.turntable) {
+            job.request.view.camera = turned_camera(camera, pivot, k, *options.turntable);
+        } else if (k != first) {
             show_pose(job, options, animation, k / options.fps, InterruptGuard::flag());
             job.build_seconds += build_seconds;
         }

@@ -7,6 +7,7 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/statistics_file.h"
+#include "app/viewer/desktop.h"
 #include "app/viewer/session_recorder.h"
 #include "app/viewer/window.h"
 
@@ -22,7 +23,7 @@ double seconds_since(Clock::time_point start) {
 
 }  // namespace
 
-ExitStatus run_view(const RenderOptions& requested) {
+ExitStatus run_view(const RenderOptions& requested, const RememberedSettings& remembered) {
     RenderOptions options = requested;
     if (options.scene.empty()) options.scene = default_scene().string();
     std::error_code error;
@@ -33,7 +34,9 @@ ExitStatus run_view(const RenderOptions& requested) {
     const Clock::time_point start = Clock::now();
     double first_frame_seconds = 0;
     try {
-        Window window(options.resolution.value_or(Vec2u(1280, 720)), "candela");
+        // A size that nobody chose is the same on every screen, as the eye has it.
+        const bool usual = !options.resolution && !remembered.window;
+        Window window(options.resolution.value_or(remembered.window.value_or(Vec2u(1280, 720))), "candela", usual);
         // What happens in one round of the loop happens at one time, so that a replay can have it happen again.
         double now_s = 0;
         ViewerOptions viewer_options;
@@ -45,12 +48,18 @@ ExitStatus run_view(const RenderOptions& requested) {
             viewer_options.previews = false;
         }
         Viewer viewer(options, window, viewer_options);
+        Desktop desktop(
+            {settings_path(), remembered, options.watch, [&](const std::string& text) { window.set_clipboard(text); },
+             [](const std::string& line) { fmt::print(stderr, "candela: warning: {}\n", line); }},
+            viewer, window.extent());
         std::string title = "candela";
         std::string reported;
         while (!viewer.wants_to_close() && !InterruptGuard::interrupted()) {
-            const std::vector<InputEvent> events = window.wait_for_events(viewer.seconds_until_update());
+            std::vector<InputEvent> events =
+                window.wait_for_events(std::min(viewer.seconds_until_update(), desktop.longest_sleep_s()));
             // In microseconds, so that it is short to write.
             now_s = std::round(1e6 * seconds_since(start)) / 1e6;
+            desktop.add_events(viewer, now_s, events);
             if (recorder) recorder->begin_frame(viewer, now_s, events);
             for (const InputEvent& event : events)
                 viewer.handle(event);
@@ -64,6 +73,7 @@ ExitStatus run_view(const RenderOptions& requested) {
                 viewer.presented();
             }
             if (recorder) recorder->end_frame(viewer, draws);
+            desktop.serve(viewer, window.extent());
             if (viewer.title() != title) window.set_title(title = viewer.title());
             if (viewer.load_error() != reported) {
                 reported = viewer.load_error();
@@ -71,6 +81,7 @@ ExitStatus run_view(const RenderOptions& requested) {
             }
         }
         if (recorder) recorder->finish();
+        desktop.remember(viewer, window.extent());
         // The record is of the last view.
         if (viewer.frame() != nullptr) {
             write_statistics({&viewer.model().options, &viewer.model().job, viewer.model().status, viewer.frame(), 0.0,

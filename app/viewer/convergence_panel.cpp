@@ -4,15 +4,12 @@
 #include <imgui.h>
 
 #include "app/viewer/error_words.h"
+#include "app/viewer/palette.h"
 #include "app/viewer/panels.h"
 
 namespace candela {
 
 namespace {
-
-const ImU32 mean_color = IM_COL32(232, 163, 61, 255), bound_color = IM_COL32(150, 170, 200, 255),
-            other_color = IM_COL32(110, 185, 235, 255), grid_color = IM_COL32(255, 255, 255, 36),
-            faint_grid_color = IM_COL32(255, 255, 255, 14);
 
 // One logarithmic axis, from a value to a place on the screen.
 struct Axis {
@@ -51,16 +48,16 @@ void draw_curve(ImDrawList* draw, const Axis& x, const Axis& y, const std::vecto
     for (const ErrorPoint& point : points) {
         if (x.holds(point.seconds) && value(point) > 0) line.push_back({x.at(point.seconds), y.at(value(point))});
     }
-    draw->AddPolyline(line.data(), static_cast<int>(line.size()), color, 0, 1.6f);
-    if (!line.empty()) draw->AddCircleFilled(line.back(), 2.6f, color);
+    draw->AddPolyline(line.data(), static_cast<int>(line.size()), color, 0, 1.6f * line_scale());
+    if (!line.empty()) draw->AddCircleFilled(line.back(), 2.6f * line_scale(), color);
 }
 
 void draw_dashes(ImDrawList* draw, const ImVec2& a, const ImVec2& b, ImU32 color) {
-    const float length = std::hypot(b.x - a.x, b.y - a.y), dash = 5;
+    const float length = std::hypot(b.x - a.x, b.y - a.y), dash = 5 * line_scale();
     for (float t = 0; t < length; t += 2 * dash) {
         const float t0 = t / length, t1 = std::min(t + dash, length) / length;
         draw->AddLine({a.x + t0 * (b.x - a.x), a.y + t0 * (b.y - a.y)},
-                      {a.x + t1 * (b.x - a.x), a.y + t1 * (b.y - a.y)}, color, 1.2f);
+                      {a.x + t1 * (b.x - a.x), a.y + t1 * (b.y - a.y)}, color, 1.2f * line_scale());
     }
 }
 
@@ -68,6 +65,10 @@ void draw_dashes(ImDrawList* draw, const ImVec2& a, const ImVec2& b, ImU32 color
 
 void draw_convergence(const ViewerModel& model) {
     const float unit = ImGui::GetFontSize();
+    const Palette& palette = palette_of(model.style.theme);
+    const ImU32 mean_color = packed(palette.accent), bound_color = packed(palette.bound),
+                other_color = packed(palette.second), grid_color = packed(palette.grid),
+                faint_grid_color = packed(palette.faint_grid);
     const ErrorWords words = words_of(model);
     const std::vector<ErrorPoint>& points = model.history.points();
     if (words.brief.empty() || points.size() < 2) {
@@ -154,7 +155,7 @@ void draw_convergence(const ViewerModel& model) {
     if (shows_target && *seconds > 0) {
         const ImVec2 end(x.at(target_seconds), y.at(target));
         draw_dashes(draw, {x.at(points.back().seconds), y.at(trend->error_now)}, end, mean_color);
-        draw->AddCircle(end, 3.5f, mean_color, 0, 1.4f);
+        draw->AddCircle(end, 3.5f * line_scale(), mean_color, 0, 1.4f * line_scale());
     }
 
     // What the curves are, at the top right, where they never are.

@@ -19,14 +19,14 @@ ImU32 difference_u32(float t) {
     return ImGui::ColorConvertFloat4ToU32({color.x, color.y, color.z, 1});
 }
 
-// A word on dark ground beside the line.
+// A word on a panel's ground beside the line.
 void label(ImDrawList* draw, const char* words, float x, float y, float pivot) {
     const float unit = ImGui::GetFontSize();
     const ImVec2 size = ImGui::CalcTextSize(words);
     const ImVec2 at(x - pivot * size.x, y);
     draw->AddRectFilled({at.x - 0.4f * unit, at.y - 0.2f * unit}, {at.x + size.x + 0.4f * unit, at.y + 1.2f * unit},
-                        IM_COL32(23, 23, 26, 225), 0.25f * unit);
-    draw->AddText(at, IM_COL32(237, 237, 235, 255), words);
+                        ImGui::GetColorU32(ImGuiCol_WindowBg), 0.25f * unit);
+    draw->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), words);
 }
 
 // "light points, ±1.2 %"
@@ -73,16 +73,16 @@ void draw_wipe(const ViewerModel& model) {
     const float unit = ImGui::GetFontSize(), bottom = ImGui::GetIO().DisplaySize.y - 1.8f * unit;
     const float x = std::round(*line);
     ImDrawList* draw = ImGui::GetBackgroundDrawList();
-    draw->AddLine({x, 0}, {x, bottom}, IM_COL32(0, 0, 0, 160), 3);
-    draw->AddLine({x, 0}, {x, bottom}, IM_COL32(255, 255, 255, 255), 1);
+    draw->AddLine({x, 0}, {x, bottom}, IM_COL32(0, 0, 0, 160), 3 * line_scale());
+    draw->AddLine({x, 0}, {x, bottom}, IM_COL32(255, 255, 255, 255), std::max(std::round(line_scale()), 1.0f));
 
     // The handle: two triangles that point both ways.
     const float y = 0.5f * bottom, r = 0.45f * unit;
-    draw->AddRectFilled({x - 1.6f * r, y - 1.4f * r}, {x + 1.6f * r, y + 1.4f * r}, IM_COL32(23, 23, 26, 225),
-                        0.5f * r);
+    draw->AddRectFilled({x - 1.6f * r, y - 1.4f * r}, {x + 1.6f * r, y + 1.4f * r},
+                        ImGui::GetColorU32(ImGuiCol_WindowBg), 0.5f * r);
     for (const float side : {-1.0f, 1.0f}) {
         draw->AddTriangleFilled({x + side * 1.2f * r, y}, {x + side * 0.35f * r, y - 0.8f * r},
-                                {x + side * 0.35f * r, y + 0.8f * r}, IM_COL32(237, 237, 235, 255));
+                                {x + side * 0.35f * r, y + 0.8f * r}, ImGui::GetColorU32(ImGuiCol_Text));
     }
 
     // What is on either side, where there is room for it.
@@ -137,13 +137,15 @@ void draw_legend(const ViewerModel& model, bool beside_readings) {
         const ImU32 to = is_difference ? difference_u32(2 * b - 1) : heat_u32(b);
         draw->AddRectFilledMultiColor({left + a * span, at.y}, {left + b * span, at.y + height}, from, to, to, from);
     }
-    draw->AddRect({left - 1, at.y - 1}, {left + span + 1, at.y + height + 1}, IM_COL32(110, 110, 112, 255));
+    draw->AddRect({left - 1, at.y - 1}, {left + span + 1, at.y + height + 1},
+                  ImGui::GetColorU32(ImGuiCol_TextDisabled));
     for (const float mark : marks_of(scale)) {
         const float x = left + span * scale.position(mark);
         const std::string words =
             is_error ? fmt::format("{:.3g} %", is_difference && std::abs(mark) < 1e-4f ? 0.0f : 100 * mark)
                      : fmt::format("{:.4g}", mark);
-        draw->AddLine({x, at.y + height + 1}, {x, at.y + height + 0.3f * unit}, IM_COL32(160, 160, 158, 255));
+        draw->AddLine({x, at.y + height + 1}, {x, at.y + height + 0.3f * unit},
+                      ImGui::GetColorU32(ImGuiCol_TextDisabled));
         draw->AddText({x - 0.5f * ImGui::CalcTextSize(words.c_str()).x, at.y + height + 0.4f * unit},
                       ImGui::GetColorU32(ImGuiCol_Text), words.c_str());
     }

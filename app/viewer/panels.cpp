@@ -5,6 +5,7 @@
 #include <imgui.h>
 
 #include "app/clock_text.h"
+#include "app/viewer/palette.h"
 
 namespace candela {
 
@@ -13,8 +14,6 @@ namespace {
 constexpr ImGuiWindowFlags overlay_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                            ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
                                            ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize;
-const ImVec4 accent(0.91f, 0.64f, 0.24f, 1.0f);
-const ImVec4 alarm(0.95f, 0.45f, 0.35f, 1.0f);
 
 float unit() {
     return ImGui::GetFontSize();
@@ -59,6 +58,16 @@ const char* state_words(const ViewerModel& model) {
 
 }  // namespace
 
+float line_scale() {
+    return ImGui::GetFontSize() / 15;
+}
+
+void bound_next_window() {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float height = display.y > 32 * unit() ? display.y - 4.4f * unit() : 0.55f * display.y;
+    ImGui::SetNextWindowSizeConstraints({0, 0}, {std::max(display.x - 2 * unit(), 1.0f), std::max(height, 1.0f)});
+}
+
 std::optional<double> asked_error(const ViewerModel& model) {
     if (!model.options.until_error_percent) return std::nullopt;
     return *model.options.until_error_percent / 100;
@@ -70,6 +79,7 @@ ErrorWords words_of(const ViewerModel& model) {
 
 void draw_status_line(const ViewerModel& model) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const ImVec4 &accent = palette_of(model.style.theme).accent, &alarm = palette_of(model.style.theme).alarm;
     const float height = 1.8f * unit(), margin = 0.8f * unit();
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
@@ -92,6 +102,11 @@ void draw_status_line(const ViewerModel& model) {
         line.item(clock_text(model.status.render_seconds));
         if (!model.lights.words().empty()) line.item("lights re-weighted", &accent);
         if (model.is_reprojected) line.item("reprojected", &accent);
+        if (model.writing)
+            line.item(fmt::format("picture {} of {}", std::min(model.writing->first + 1, model.writing->second),
+                                  model.writing->second),
+                      &accent);
+        if (model.flying) line.item("flying", &accent);
         if (const char* state = state_words(model)) line.item(state, &accent);
         // The speed stays, and what matters more than it.
         const std::string speed = fmt::format("{:.2f} Mrays/s", model.status.rays_per_second * 1e-6);
@@ -138,17 +153,18 @@ void draw_loading_bar(const ViewerModel& model) {
 void draw_welcome(const ViewerModel&) {
     place({0.5f, 0.5f}, {0, 0});
     ImGui::Begin("welcome", nullptr, overlay_flags | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoBackground);
-    text("Drop a .gltf or .glb file here");
+    text("Drop a .gltf or .glb file here, or press Ctrl+O");
     ImGui::End();
 }
 
 bool draw_notice(const ViewerModel& model) {
     const float wrap = std::min(44 * unit(), 0.9f * ImGui::GetIO().DisplaySize.x - 2 * unit());
     place({0.5f, 0.0f}, {0, unit()});
+    bound_next_window();
     ImGui::Begin("notice", nullptr, overlay_flags | (model.notice_is_error ? 0 : ImGuiWindowFlags_NoInputs));
     ImGui::PushTextWrapPos(wrap);
     if (model.notice_is_error)
-        ImGui::TextColored(alarm, "%s",
+        ImGui::TextColored(palette_of(model.style.theme).alarm, "%s",
                            model.has_scene() ? "That did not work; what was open stays" : "That did not work");
     text(model.notice);
     ImGui::PopTextWrapPos();
@@ -157,54 +173,10 @@ bool draw_notice(const ViewerModel& model) {
     return dismissed;
 }
 
-void draw_help() {
-    constexpr const char* rows[][2] = {{"orbit", "left drag, Alt+left drag"},
-                                       {"pan", "middle drag, Shift+left drag"},
-                                       {"nearer, farther", "wheel towards the cursor, right drag"},
-                                       {"re-centre", "double-click"},
-                                       {"focus", "Ctrl+Shift+left click"},
-                                       {"frame all", "Home, Enter"},
-                                       {"front, right, top", "1  3  7"},
-                                       {"isometric, orthographic", "9  5"},
-                                       {"cameras of the file", "C"},
-                                       {"store, recall a view", "Ctrl+0-9, Shift+0-9"},
-                                       {"view before, after", "Alt+left, Alt+right arrow"},
-                                       {"exposure", "E, Shift+E"},
-                                       {"tone curve", "T"},
-                                       {"turn, hide environment", "Shift+right drag, J"},
-                                       {"play, one frame back, on", "Space  [  ]"},
-                                       {"error map, next map", "V, Shift+V"},
-                                       {"wipe of the map", "drag its line; , and ."},
-                                       {"pause rendering", "P"},
-                                       {"denoised preview", "D"},
-                                       {"undo, redo an edit", "Ctrl+Z, Ctrl+Shift+Z"},
-                                       {"pixel and its brightest path", "click; Escape"},
-                                       {"compare two settings", "B"},
-                                       {"reference, its measures", "hold Shift, M"},
-                                       {"save picture, the denoised one", "Ctrl+S, Ctrl+Shift+S"},
-                                       {"reload", "F5"},
-                                       {"next, previous file", "right, left arrow"},
-                                       {"open", "drop a .gltf, .glb, .hdr or .exr file"},
-                                       {"open a reference", "Shift and drop an .exr, .hdr or .png file"},
-                                       {"statistics, panels, help", "Z  Tab  H"},
-                                       {"quit", "Ctrl+Q"}};
-    place({0.5f, 0.5f}, {0, 0});
-    ImGui::Begin("help", nullptr, overlay_flags | ImGuiWindowFlags_NoInputs);
-    if (ImGui::BeginTable("keys", 2)) {
-        for (const auto& row : rows) {
-            ImGui::TableNextColumn();
-            ImGui::TextDisabled("%s", row[0]);
-            ImGui::TableNextColumn();
-            ImGui::TextUnformatted(row[1]);
-        }
-        ImGui::EndTable();
-    }
-    ImGui::End();
-}
-
 void draw_statistics(const ViewerModel& model) {
     if (!model.has_scene()) return;
     place({0.0f, 0.0f}, {unit(), unit()});
+    bound_next_window();
     ImGui::Begin("statistics", nullptr, overlay_flags | ImGuiWindowFlags_NoInputs);
     const auto row = [](const char* name, const std::string& value) {
         ImGui::TableNextColumn();
@@ -256,7 +228,7 @@ void draw_statistics(const ViewerModel& model) {
     draw_convergence(model);
     ImGui::PushTextWrapPos(30 * unit());
     for (const std::string& warning : model.job.warnings) {
-        ImGui::PushStyleColor(ImGuiCol_Text, accent);
+        ImGui::PushStyleColor(ImGuiCol_Text, palette_of(model.style.theme).accent);
         text(warning);
         ImGui::PopStyleColor();
     }

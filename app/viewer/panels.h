@@ -6,6 +6,10 @@
 
 namespace candela {
 
+// How much wider than at the usual size lines and dots are drawn.
+float line_scale();
+// The next window leaves some of the picture to be seen, in however small a window of ours.
+void bound_next_window();
 // The line at the foot: scene, samples, time, speed, error.
 void draw_status_line(const ViewerModel& model);
 // While a scene loads.
@@ -48,6 +52,11 @@ void draw_validation(const std::vector<ValidationReading>& readings);
 void views_section(ViewerModel& model, PanelEdits& edits);
 // Lights that are re-weighted: a section of the side panel.
 void lights_section(const ViewerModel& model, PanelEdits& edits);
+// Numbered pictures: a section of the side panel.
+void sequence_section(ViewerModel& model, PanelEdits& edits);
+// Opening files, and how the panels look: sections of the side panel.
+void open_section(const ViewerModel& model, PanelEdits& edits);
+void window_section(ViewerModel& model, PanelEdits& edits);
 // Camera, light, rendering, display and scene, at the right.
 PanelEdits draw_side_panel(ViewerModel& model);
 

@@ -119,17 +119,17 @@ class Overlay {
             (from ? to : from) = point(seen);
         }
         if (!from || !to) return;
-        draw_->AddLine(*from, *to, shadow_color, width + 2);
-        draw_->AddLine(*from, *to, color, width);
+        draw_->AddLine(*from, *to, shadow_color, scale_ * (width + 2));
+        draw_->AddLine(*from, *to, color, scale_ * width);
     }
     void dot(const Vec3& at, ImU32 color, const std::string& words) {
         const std::optional<ImVec2> center = point(at);
         if (!center) return;
-        draw_->AddCircleFilled(*center, 5, shadow_color);
-        draw_->AddCircleFilled(*center, 3.5f, color);
+        draw_->AddCircleFilled(*center, 5 * scale_, shadow_color);
+        draw_->AddCircleFilled(*center, 3.5f * scale_, color);
         if (words.empty()) return;
-        draw_->AddText({center->x + 7, center->y - 5}, shadow_color, words.c_str());
-        draw_->AddText({center->x + 6, center->y - 6}, color, words.c_str());
+        draw_->AddText({center->x + 7 * scale_, center->y - 5 * scale_}, shadow_color, words.c_str());
+        draw_->AddText({center->x + 6 * scale_, center->y - 6 * scale_}, color, words.c_str());
     }
 
   private:
@@ -144,6 +144,7 @@ class Overlay {
     }
 
     const View& view_;
+    float scale_ = line_scale();
     ImDrawList* draw_ = ImGui::GetBackgroundDrawList();
 };
 

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <utility>
+
 #include "app/viewer/environment_files.h"
 #include "app/viewer/panels.h"
 
@@ -184,12 +186,15 @@ PanelEdits draw_side_panel(ViewerModel& model) {
     const float unit = ImGui::GetFontSize();
     const float width = std::min(20 * unit, display.x - 2 * unit);
     ImGui::SetNextWindowPos({display.x - width - unit, unit});
-    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, std::max(display.y - 4 * unit, 4 * unit)});
+    const float height = display.y > 32 * unit ? display.y - 4 * unit : 0.55f * display.y;
+    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, height});
+    if (std::exchange(model.focuses_panels, false)) ImGui::SetNextWindowFocus();
     ImGui::Begin("panels", nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
     ImGui::PushItemWidth(0.55f * width);
     const OrbitView view = model.view;
+    open_section(model, edits);
     camera_section(model, edits);
     const bool lens_begins = edits.view && !model.edit_continues;
     views_section(model, edits);
@@ -199,8 +204,10 @@ PanelEdits draw_side_panel(ViewerModel& model) {
     display_section(model, edits);
     edit_section(model, edits);
     compare_section(model, edits);
+    sequence_section(model, edits);
     scene_section(model, edits);
     validation_section(edits);
+    window_section(model, edits);
     if (lens_begins) edits.before_edit = Editable{model.materials, model.punctual_lights, view, false};
     model.edit_continues = ImGui::IsAnyItemActive();
     ImGui::PopItemWidth();

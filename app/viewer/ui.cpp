@@ -5,6 +5,8 @@
 
 #include <filesystem>
 
+#include "app/viewer/palette.h"
+
 namespace candela {
 
 namespace {
@@ -12,34 +14,6 @@ namespace {
 constexpr const char* font_paths[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
                                       "/usr/share/fonts/TTF/DejaVuSans.ttf", "/usr/share/fonts/dejavu/DejaVuSans.ttf"};
 constexpr float font_points = 15.0f;
-
-// Warm accent on dark grey, everything on a grid of four points.
-void apply_theme(float scale) {
-    ImGuiStyle style;
-    ImGui::StyleColorsDark(&style);
-    style.WindowRounding = 6;
-    style.FrameRounding = 4;
-    style.GrabRounding = 4;
-    style.PopupRounding = 4;
-    style.WindowBorderSize = 0;
-    style.WindowPadding = {12, 12};
-    style.FramePadding = {8, 4};
-    style.ItemSpacing = {8, 8};
-    style.ScrollbarSize = 12;
-    const ImVec4 accent(0.91f, 0.64f, 0.24f, 1.0f), panel(0.09f, 0.09f, 0.10f, 0.94f), field(0.22f, 0.22f, 0.24f, 1.0f),
-        field_active(0.30f, 0.30f, 0.33f, 1.0f);
-    ImVec4* colors = style.Colors;
-    colors[ImGuiCol_WindowBg] = colors[ImGuiCol_PopupBg] = panel;
-    colors[ImGuiCol_FrameBg] = colors[ImGuiCol_Button] = colors[ImGuiCol_Header] = field;
-    colors[ImGuiCol_FrameBgHovered] = colors[ImGuiCol_ButtonHovered] = colors[ImGuiCol_HeaderHovered] = field_active;
-    colors[ImGuiCol_FrameBgActive] = colors[ImGuiCol_ButtonActive] = colors[ImGuiCol_HeaderActive] = field_active;
-    colors[ImGuiCol_SliderGrab] = colors[ImGuiCol_SliderGrabActive] = colors[ImGuiCol_CheckMark] = accent;
-    colors[ImGuiCol_PlotHistogram] = accent;
-    colors[ImGuiCol_Text] = {0.93f, 0.93f, 0.92f, 1.0f};
-    colors[ImGuiCol_TextDisabled] = {0.60f, 0.60f, 0.58f, 1.0f};
-    style.ScaleAllSizes(scale);
-    ImGui::GetStyle() = style;
-}
 
 void map_keys(ImGuiIO& io) {
     const std::pair<ImGuiKey, Key> keys[] = {{ImGuiKey_Tab, Key::tab},
@@ -64,12 +38,16 @@ void map_keys(ImGuiIO& io) {
 
 }  // namespace
 
-Ui::Ui(const GlContext& context) : imgui_(ImGui::CreateContext()) {
+Ui::Ui(const GlContext& context, const UiStyle& style) : imgui_(ImGui::CreateContext()), style_(style) {
     ImGui::SetCurrentContext(imgui_);
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
     io.LogFilename = nullptr;
     map_keys(io);
+    // What is pasted comes as an event, so that a recorded session has it.
+    io.ClipboardUserData = this;
+    io.GetClipboardTextFn = [](void* ui) { return static_cast<Ui*>(ui)->pasted_.c_str(); };
+    io.SetClipboardTextFn = [](void* ui, const char* text) { static_cast<Ui*>(ui)->copied_ = text; };
     size_.pixels = context.framebuffer_extent();
     size_.points = Vec2(size_.pixels);
     build_fonts();
@@ -84,6 +62,7 @@ Ui::~Ui() {
 void Ui::build_fonts() {
     // Glyphs are drawn at the size they have in pixels, and scaled back to points.
     ImGuiIO& io = ImGui::GetIO();
+    const float scale = size_.content_scale * style_.scale;
     const float pixels_per_point = size_.points.x > 0 ? static_cast<float>(size_.pixels.x) / size_.points.x : 1.0f;
     io.Fonts->Clear();
     const ImWchar ranges[] = {0x20, 0xff, 0x2010, 0x2026, 0x2190, 0x21ff, 0x2212, 0x2212, 0x2248, 0x2248, 0};
@@ -92,19 +71,28 @@ void Ui::build_fonts() {
         // ImGui aborts on a missing file.
         std::error_code error;
         if (font != nullptr || !std::filesystem::is_regular_file(path, error)) continue;
-        font = io.Fonts->AddFontFromFileTTF(path, std::round(font_points * size_.content_scale), nullptr, ranges);
+        font = io.Fonts->AddFontFromFileTTF(path, std::round(font_points * scale), nullptr, ranges);
         // The atlas keeps a pointer to the ranges until it is built.
         io.Fonts->Build();
     }
     if (font == nullptr) {
         ImFontConfig config;
-        config.SizePixels = std::round(13 * size_.content_scale);
+        config.SizePixels = std::round(13 * scale);
         io.Fonts->AddFontDefault(&config);
         io.Fonts->Build();
     }
     io.FontGlobalScale = 1 / pixels_per_point;
-    apply_theme(size_.content_scale / pixels_per_point);
-    built_scale_ = size_.content_scale;
+    built_pixels_per_point_ = pixels_per_point;
+    built_scale_ = scale;
+    apply_theme(style_.theme, scale / pixels_per_point);
+}
+
+void Ui::set_style(const UiStyle& style) {
+    if (style == style_) return;
+    ImGui::SetCurrentContext(imgui_);
+    style_ = style;
+    // Of another scale the fonts are built with the next frame, and the sizes with them.
+    apply_theme(style_.theme, built_scale_ / built_pixels_per_point_);
 }
 
 void Ui::handle(const InputEvent& event) {
@@ -120,12 +108,16 @@ void Ui::handle(const InputEvent& event) {
         io.MouseWheelH += scroll->steps.x;
         io.MouseWheel += scroll->steps.y;
     } else if (const auto* key = std::get_if<KeyPressed>(&event)) {
-        io.KeysDown[static_cast<size_t>(key->key)] = key->pressed;
+        const auto index = static_cast<size_t>(key->key);
+        key_down_[index] = key->pressed;
+        key_pressed_since_frame_[index] |= key->pressed;
         io.KeyShift = key->modifiers.shift;
         io.KeyCtrl = key->modifiers.ctrl;
         io.KeyAlt = key->modifiers.alt;
     } else if (const auto* text = std::get_if<TextTyped>(&event)) {
         io.AddInputCharacter(text->code_point);
+    } else if (const auto* paste = std::get_if<TextPasted>(&event)) {
+        pasted_ = paste->text;
     } else if (const auto* size = std::get_if<WindowResized>(&event)) {
         size_ = *size;
     }
@@ -136,6 +128,16 @@ bool Ui::wants_mouse() const {
     return ImGui::GetIO().WantCaptureMouse;
 }
 
+bool Ui::is_editing() const {
+    ImGui::SetCurrentContext(imgui_);
+    return ImGui::IsAnyItemActive() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+}
+
+bool Ui::wants_text() const {
+    ImGui::SetCurrentContext(imgui_);
+    return ImGui::GetIO().WantTextInput;
+}
+
 bool Ui::wants_keyboard() const {
     ImGui::SetCurrentContext(imgui_);
     return ImGui::GetIO().WantTextInput;
@@ -143,7 +145,8 @@ bool Ui::wants_keyboard() const {
 
 void Ui::begin_frame(double now_s) {
     ImGui::SetCurrentContext(imgui_);
-    if (built_scale_ != size_.content_scale) {
+    const float pixels_per_point = size_.points.x > 0 ? static_cast<float>(size_.pixels.x) / size_.points.x : 1.0f;
+    if (built_scale_ != size_.content_scale * style_.scale || built_pixels_per_point_ != pixels_per_point) {
         build_fonts();
         renderer_->upload_fonts();
     }
@@ -155,11 +158,14 @@ void Ui::begin_frame(double now_s) {
     }
     io.DeltaTime = std::clamp(static_cast<float>(now_s - last_frame_s_), 1e-4f, 0.5f);
     last_frame_s_ = now_s;
-    // A click that began and ended since the last frame still counts.
+    io.ConfigFlags = navigates_ ? ImGuiConfigFlags_NavEnableKeyboard : 0;
+    // A click that began and ended since the last frame still counts, and so does a key.
     for (size_t i = 0; i < 3; ++i) {
         io.MouseDown[i] = mouse_down_[i] || mouse_pressed_since_frame_[i];
         mouse_pressed_since_frame_[i] = false;
     }
+    for (size_t i = 0; i < key_down_.size(); ++i)
+        io.KeysDown[i] = key_down_[i] || std::exchange(key_pressed_since_frame_[i], false);
     ImGui::NewFrame();
 }
 

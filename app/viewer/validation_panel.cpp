@@ -39,8 +39,8 @@ void draw_validation(const std::vector<ValidationReading>& readings) {
     for (const ValidationReading& r : readings) {
         if (!r.visible) continue;
         const ImVec2 at(r.film_uv.x * display.x, r.film_uv.y * display.y);
-        draw->AddCircle(at, 0.5f * unit, IM_COL32(0, 0, 0, 200), 0, 3.0f);
-        draw->AddCircle(at, 0.5f * unit, IM_COL32(255, 255, 255, 255), 0, 1.2f);
+        draw->AddCircle(at, 0.5f * unit, IM_COL32(0, 0, 0, 200), 0, 3.0f * line_scale());
+        draw->AddCircle(at, 0.5f * unit, IM_COL32(255, 255, 255, 255), 0, 1.2f * line_scale());
         draw->AddText({at.x + 0.7f * unit, at.y - 1.4f * unit}, IM_COL32(0, 0, 0, 255), r.of->name.c_str());
         draw->AddText({at.x + 0.7f * unit - 1, at.y - 1.4f * unit - 1}, IM_COL32(255, 255, 255, 255),
                       r.of->name.c_str());

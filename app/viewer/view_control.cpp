@@ -36,6 +36,20 @@ void look_along(OrbitView& view, const Vec3& back, const Vec3& up) {
     view.camera.world_from_camera = look_at(view.pivot + distance * back, view.pivot, up);
 }
 
+// About +Y and the camera's own horizontal axis through the pivot, from one pole to the other: the scene never stands
+// on its head.
+OrbitView turned(const OrbitView& view, const Vec2& radians) {
+    OrbitView out = view;
+    rotate_about(out, -radians.x, {0, 1, 0});
+    const Vec3 back = Vec3(out.camera.world_from_camera[2]);
+    const float elevation = std::asin(std::clamp(back.y, -1.0f, 1.0f));
+    const bool upright = out.camera.world_from_camera[1].y >= 0;
+    const float limit = pi / 2;
+    const float turn = upright ? std::clamp(elevation + radians.y, -limit, limit) - elevation : radians.y;
+    rotate_about(out, -turn, Vec3(out.camera.world_from_camera[0]));
+    return out;
+}
+
 }  // namespace
 
 float pivot_distance(const OrbitView& view) {
@@ -44,17 +58,26 @@ float pivot_distance(const OrbitView& view) {
 }
 
 OrbitView orbit(const OrbitView& view, const Vec2& drag) {
-    OrbitView out = view;
-    rotate_about(out, -drag.x * pi, {0, 1, 0});
+    return turned(view, pi * drag);
+}
 
-    // Down to the poles and no further: the scene never stands on its head.
-    const Vec3 back = Vec3(out.camera.world_from_camera[2]);
-    const float elevation = std::asin(std::clamp(back.y, -1.0f, 1.0f));
-    const bool upright = out.camera.world_from_camera[1].y >= 0;
-    const float limit = pi / 2;
-    const float wanted = elevation + drag.y * pi;
-    const float turn = upright ? std::clamp(wanted, -limit, limit) - elevation : drag.y * pi;
-    rotate_about(out, -turn, Vec3(out.camera.world_from_camera[0]));
+OrbitView fly(const OrbitView& view, const Vec3& right_up_forward_m) {
+    OrbitView out = view;
+    const Vec3 right = Vec3(view.camera.world_from_camera[0]);
+    const Vec3 step = right_up_forward_m.x * right + right_up_forward_m.y * Vec3(0, 1, 0) +
+                      right_up_forward_m.z * view.camera.forward();
+    move_to(out, view.camera.position() + step);
+    out.pivot += step;
+    return out;
+}
+
+OrbitView look_around(const OrbitView& view, const Vec2& drag) {
+    // What the drag began at stays under the cursor, in the middle of the picture at least.
+    const float distance = pivot_distance(view);
+    OrbitView eye = view;
+    eye.pivot = view.camera.position();
+    OrbitView out = turned(eye, -view.camera.yfov_radians * drag);
+    out.pivot = out.camera.position() + distance * out.camera.forward();
     return out;
 }
 

@@ -28,6 +28,10 @@ OrbitView pan(const OrbitView& view, const Vec2& drag);
 // Brings the camera nearer to anchor, a point that stays where it is in the picture: factor < 1 shrinks all distances
 // by it, > 1 grows them; an orthographic picture is magnified instead.
 OrbitView dolly(const OrbitView& view, const Vec3& anchor, float factor, float aspect);
+// Moves the eye and the pivot by so many metres to the right, up in the world, and forward.
+OrbitView fly(const OrbitView& view, const Vec3& right_up_forward_m);
+// Turns the head: as orbit, but about the eye. The scene follows the drag.
+OrbitView look_around(const OrbitView& view, const Vec2& drag);
 // Moves the camera sideways so that point comes to the middle, and turns about it from then on.
 OrbitView recentre(const OrbitView& view, const Vec3& point);
 // Looks at the pivot from that side, at the same distance. isometric is orthographic; the others keep the projection.

@@ -31,6 +31,7 @@ Viewer::Viewer(const RenderOptions& options, const GlContext& context, const Vie
     : context_(context), viewer_options_(viewer_options), display_(context) {
     model_.options = options;
     model_.display.tone = options.tone;
+    model_.style = options.style;
     model_.show_interface = viewer_options.interface;
     model_.map = {options.map || options.metric, options.map.value_or(PixelMap::error), options.wipe, options.metric};
     for (const std::string& name : options.open) {
@@ -40,7 +41,7 @@ Viewer::Viewer(const RenderOptions& options, const GlContext& context, const Vie
     }
     size_.pixels = context.framebuffer_extent();
     size_.points = Vec2(size_.pixels);
-    if (viewer_options.interface) ui_ = std::make_unique<Ui>(context);
+    if (viewer_options.interface) ui_ = std::make_unique<Ui>(context, model_.style);
     SessionOptions session_options;
     session_options.threads = options.threads;
     session_options.frame_seconds = 1e-3 * options.frame_time_ms;
@@ -407,6 +408,7 @@ bool Viewer::update() {
     take_other_frame();
     update_reference();
     update_inspection();
+    update_sequence();
 
     // Progress moves and notices go away by themselves.
     const double now = now_s();
@@ -453,6 +455,7 @@ void Viewer::draw() {
         }
     }
     ui_->end_frame_and_draw();
+    if (std::optional<std::string> copied = ui_->take_copied()) requests_.copied = std::move(copied);
     apply(edits);
 }
 
@@ -466,6 +469,7 @@ void Viewer::apply(const PanelEdits& edits) {
         model_.lights.weights = *edits.light_weights;
         weigh_lights();
     }
+    if (edits.style && ui_ != nullptr) ui_->set_style(model_.style);
     if (edits.frame_time) session_->set_frame_seconds(1e-3 * model_.options.frame_time_ms);
     if (edits.store_bookmark) store_bookmark(*edits.store_bookmark);
     if (edits.recall_bookmark) recall_bookmark(*edits.recall_bookmark);
@@ -487,6 +491,12 @@ void Viewer::apply(const PanelEdits& edits) {
     if (edits.compare) toggle_comparison();
     if (edits.compared) dirty_ = true;
     if (edits.metric) show_map(model_.map);
+    if (edits.open_dialog) ask_for_file(DialogPurpose::scene);
+    if (edits.reference_dialog) ask_for_file(DialogPurpose::reference);
+    if (edits.open_recent && viewer_options_.touches_files) requests_.open = edits.open_recent;
+    if (edits.copy_view) copy_view();
+    if (edits.write_sequence) write_sequence(*edits.write_sequence);
+    if (edits.stop_sequence) writer_.stop();
     if (edits.frame_all) frame_everything();
     if (edits.camera) show_file_camera(*edits.camera);
     if (edits.scene) {
@@ -497,7 +507,8 @@ void Viewer::apply(const PanelEdits& edits) {
     }
     if (edits.variant) start_variant_change(*edits.variant);
     if (edits.validation_scene) open_validation_scene(*edits.validation_scene);
-    if (edits.view || edits.settings || edits.environment || edits.tone || edits.map || edits.toggle_pause)
+    if (edits.view || edits.settings || edits.environment || edits.tone || edits.style || edits.map ||
+        edits.toggle_pause)
         redraws_ = 2;
 }
 
@@ -520,7 +531,7 @@ uint32_t Viewer::shown_samples() const {
 }
 
 bool Viewer::clock_matters() const {
-    return model_.playback.playing;
+    return model_.playback.playing || flight_.moves();
 }
 
 void Viewer::show_interface(bool shown) {
@@ -529,7 +540,7 @@ void Viewer::show_interface(bool shown) {
 
 double Viewer::seconds_until_update() const {
     if (redraws_ > 0 || dirty_) return now_s() < hold_until_s_ ? 0.001 : 0;
-    if (model_.playback.playing || (loader_.busy() && load_is_ == LoadKind::pose)) return 0.004;
+    if (flight_.moves() || model_.playback.playing || (loader_.busy() && load_is_ == LoadKind::pose)) return 0.004;
     if (loader_.busy()) return 0.02;
     if (map_is_missing() || weighing_is_missing() || denoised_->busy() || reference_.busy() || inspection_is_missing())
         return 0.008;
@@ -537,7 +548,7 @@ double Viewer::seconds_until_update() const {
     // The picture that someone waits for is taken when it comes.
     if (latency_.waits(model_.frame_epoch)) return 0.001;
     if (model_.has_scene() && !model_.status.done && !model_.status.paused) return 0.008;
-    return 0.25;
+    return writer_.busy() ? 0.1 : 0.25;
 }
 
 std::string Viewer::title() const {

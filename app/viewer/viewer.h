@@ -4,10 +4,12 @@
 #pragma once
 
 #include "app/viewer/denoised_preview.h"
+#include "app/viewer/flight.h"
 #include "app/viewer/input.h"
 #include "app/viewer/reference_picture.h"
 #include "app/viewer/ui.h"
 #include "app/viewer/viewer_model.h"
+#include "app/viewer/viewer_requests.h"
 
 namespace candela {
 
@@ -58,6 +60,13 @@ class Viewer {
     bool loads() const { return loader_.busy(); }
     void show_interface(bool shown);
 
+    // What was asked of the window since the last call.
+    ViewerRequests take_requests();
+    // Scenes that were open before, the last first: what the panel offers.
+    void offer_recent(std::vector<std::string> scenes) { model_.recent = std::move(scenes); }
+    // Where there is nothing to show by itself: a line over the picture.
+    void tell(std::string line, bool is_error) { notify(std::move(line), is_error); }
+
     // Opens a scene in the background; what is shown stays until there is something of it to show, and comes back after
     // a failure.
     void open(const std::string& path);
@@ -87,7 +96,7 @@ class Viewer {
         uint32_t next_camera = 0;
         Bookmarks bookmarks;
     };
-    enum class DragMode : uint8_t { none, orbit, pan, dolly, environment, wipe };
+    enum class DragMode : uint8_t { none, orbit, look, pan, dolly, environment, wipe };
 
     RenderOptions options_for(const std::string& path) const;
     void start_load(RenderOptions options, bool keep_view);
@@ -110,6 +119,20 @@ class Viewer {
     void handle_drop(const FilesDropped& event);
     void handle_resize(const WindowResized& event);
     void handle_view_key(Key key);
+
+    void give_keyboard(bool to_panels);
+    bool is_for_panels(const KeyPressed& event);
+    void toggle_flight();
+    bool fly_by(const KeyPressed& event);
+    void fly_for(double dt_s);
+    void remember_flight();
+    void end_flight();
+    void copy_view();
+    void paste_view(const std::string& text);
+    void ask_for_file(DialogPurpose purpose);
+    void reload();
+    void write_sequence(const SequenceSettings& settings);
+    void update_sequence();
 
     bool is_bookmarked(const OrbitView& view) const;
     void store_bookmark(size_t digit);
@@ -136,7 +159,7 @@ class Viewer {
     void undo_edit(bool redo);
     void start_scene_edit();
     void take_edit(const RenderJob& edited);
-    void inspect_at_cursor();
+    void inspect_at(const Vec2& point);
     void begin_inspection(Vec2u pixel);
     void end_inspection();
     void renew_inspection();
@@ -192,7 +215,10 @@ class Viewer {
     const Frame* other_frame_ = nullptr;
     EditHistory history_;
     bool scene_dirty_ = false;  // materials or lights have to be compiled
-    OrbitView view_before_drag_;
+    OrbitView view_before_drag_, view_before_flight_;
+    Flight flight_;
+    FrameWriter writer_;
+    ViewerRequests requests_;
     ReferencePicture reference_;
     BackgroundTask<PixelLedger> search_;
     uint32_t searched_samples_ = 0;

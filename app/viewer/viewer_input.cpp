@@ -59,8 +59,15 @@ void Viewer::handle(const InputEvent& event) {
     } else if (const auto* scroll = std::get_if<Scrolled>(&event)) {
         if (!panel_had_mouse) handle_scroll(scroll->steps.y);
     } else if (const auto* key = std::get_if<KeyPressed>(&event)) {
-        if (key->key == Key::shift) hold_reference(key->pressed);
-        if (key->pressed && (ui_ == nullptr || !ui_->wants_keyboard())) handle_key(*key);
+        const bool panel_has_keyboard = key->pressed && is_for_panels(*key);
+        // What ends a movement is always heard.
+        const bool flies = (!key->pressed || !panel_has_keyboard) && fly_by(*key);
+        if (key->key == Key::shift && (!key->pressed || !flies)) hold_reference(key->pressed);
+        if (key->pressed && !flies && !panel_has_keyboard) handle_key(*key);
+    } else if (const auto* paste = std::get_if<TextPasted>(&event)) {
+        if (ui_ == nullptr || !ui_->wants_text()) paste_view(paste->text);
+    } else if (std::get_if<SceneFileChanged>(&event) != nullptr) {
+        reload();
     } else if (const auto* drop = std::get_if<FilesDropped>(&event)) {
         handle_drop(*drop);
     } else if (const auto* size = std::get_if<WindowResized>(&event)) {
@@ -96,13 +103,15 @@ void Viewer::set_view(const OrbitView& view) {
 void Viewer::handle_mouse_press(const MousePressed& event) {
     if (!event.pressed) {
         if (event.button != drag_button_) return;
-        const bool clicked = drag_ == DragMode::orbit && glm::distance(press_, cursor_) < click_points;
+        const bool clicked =
+            (drag_ == DragMode::orbit || drag_ == DragMode::look) && glm::distance(press_, cursor_) < click_points;
         drag_ = DragMode::none;
         if (model_.view != view_before_drag_)
             history_.add({model_.materials, model_.punctual_lights, view_before_drag_, false});
-        if (clicked) inspect_at_cursor();
+        if (clicked) inspect_at(cursor_);
         return;
     }
+    give_keyboard(false);
     if (!model_.has_scene() || drag_ != DragMode::none) return;
     drag_button_ = event.button;
     press_ = cursor_;
@@ -132,7 +141,7 @@ void Viewer::handle_mouse_press(const MousePressed& event) {
             if (const std::optional<Vec3> point = pick(film_uv_of(cursor_))) set_view(recentre(model_.view, *point));
             return;
         }
-        drag_ = modifiers.shift ? DragMode::pan : DragMode::orbit;
+        drag_ = flight_.on() ? DragMode::look : modifiers.shift ? DragMode::pan : DragMode::orbit;
     }
 }
 
@@ -144,6 +153,9 @@ void Viewer::handle_mouse_move(const Vec2& point) {
             break;
         case DragMode::orbit:
             set_view(orbit(model_.view, drag));
+            break;
+        case DragMode::look:
+            set_view(look_around(model_.view, drag));
             break;
         case DragMode::pan:
             set_view(pan(model_.view, drag));
@@ -167,6 +179,12 @@ void Viewer::handle_mouse_move(const Vec2& point) {
 
 void Viewer::handle_scroll(float steps) {
     if (!model_.has_scene() || steps == 0) return;
+    if (flight_.on()) {
+        flight_.change_speed(steps);
+        const Bounds3& bounds = model_.job.world->bounds;
+        notify(fmt::format("{:.3g} m a second", flight_.speed(glm::length(bounds.upper - bounds.lower))));
+        return;
+    }
     const Vec2 uv = film_uv_of(cursor_);
     const Vec3 anchor = pick(uv).value_or(point_at_pivot_distance(model_.view, aspect(), uv));
     set_view(dolly(model_.view, anchor, std::pow(dolly_per_step, steps), aspect()));
@@ -178,6 +196,8 @@ void Viewer::handle_key(const KeyPressed& event) {
         if (event.key == Key::q) close_ = true;
         if (event.key == Key::s) save_next(modifiers.shift);
         if (event.key == Key::z) undo_edit(modifiers.shift);
+        if (event.key == Key::c) copy_view();
+        if (event.key == Key::o) ask_for_file(modifiers.shift ? DialogPurpose::reference : DialogPurpose::scene);
         if (is_digit(event.key)) store_bookmark(digit_of(event.key));
         return;
     }
@@ -195,8 +215,16 @@ void Viewer::handle_key(const KeyPressed& event) {
             frame_everything();
             return;
         case Key::f5:
-            if (animation() != nullptr) seek(model_.playback.time_s);
-            if (!model_.options.scene.empty()) start_load(model_.options, model_.has_scene());
+            reload();
+            return;
+        case Key::f:
+            toggle_flight();
+            return;
+        case Key::down:
+            give_keyboard(true);
+            return;
+        case Key::i:
+            inspect_at({size_.points.x / 2, size_.points.y / 2});
             return;
         case Key::f12:
             save_next(modifiers.shift);
@@ -212,9 +240,11 @@ void Viewer::handle_key(const KeyPressed& event) {
             return;
         case Key::tab:
             model_.show_panels = !model_.show_panels;
+            give_keyboard(false);
             return;
         case Key::escape:
             model_.show_help = false;
+            if (flight_.on()) toggle_flight();
             if (model_.inspection) end_inspection();
             if (model_.notice_is_error) model_.notice.clear();
             return;

@@ -14,10 +14,10 @@ constexpr uint32_t most_searched = 16384;
 
 }  // namespace
 
-void Viewer::inspect_at_cursor() {
+void Viewer::inspect_at(const Vec2& point) {
     if (!model_.has_scene()) return;
     const View view{model_.view.camera, glm::max(size_.pixels, Vec2u(1))};
-    const Vec2 at = film_uv_of(cursor_) * Vec2(view.extent);
+    const Vec2 at = film_uv_of(point) * Vec2(view.extent);
     if (at.x < 0 || at.y < 0 || at.x >= static_cast<float>(view.extent.x) || at.y >= static_cast<float>(view.extent.y))
         return;
     // A second click on it puts the glass away.

@@ -8,12 +8,14 @@
 #include "app/viewer/compared_settings.h"
 #include "app/viewer/edit_history.h"
 #include "app/viewer/error_words.h"
+#include "app/viewer/frame_writer.h"
 #include "app/viewer/inspection.h"
 #include "app/viewer/latency.h"
 #include "app/viewer/light_mixer.h"
 #include "app/viewer/map_view.h"
 #include "app/viewer/playback.h"
 #include "app/viewer/scene_loader.h"
+#include "app/viewer/theme.h"
 #include "app/viewer/view_control.h"
 
 namespace candela {
@@ -43,6 +45,7 @@ struct ViewerModel {
     RenderJob job;          // its world is null before the first scene
     OrbitView view;
     DisplaySettings display;
+    UiStyle style;
     Bookmarks bookmarks;
     LightMixer lights;
     Playback playback;
@@ -62,6 +65,12 @@ struct ViewerModel {
     std::vector<std::string> environment_files;      // that the panel offers
     bool edit_continues = false;                     // something is being dragged: no new step of the history
     std::optional<Inspection> inspection;            // of the pixel that was clicked at
+
+    SequenceSettings sequence;
+    std::optional<std::pair<uint32_t, uint32_t>> writing;  // pictures of a sequence that are there, of how many
+    bool flying = false;
+    bool panels_have_keyboard = false, focuses_panels = false;  // focuses: with the next frame
+    std::vector<std::string> recent;                            // scenes that were open before, the last first
 
     bool show_interface = true;  // false: only the picture
     bool show_panels = false;
@@ -96,6 +105,7 @@ struct PanelEdits {
     bool environment = false;  // a new world off-thread
     std::optional<std::string> environment_file;
     bool tone = false;                    // only drawn anew
+    bool style = false;                   // of the panels
     bool map = false;                     // another map, or none
     bool denoise = false;                 // on or off
     bool scene_edited = false;            // materials or lights: a new world off-thread
@@ -108,7 +118,13 @@ struct PanelEdits {
     bool frame_time = false;                                // when young pictures are shown
     std::optional<std::vector<LightWeight>> light_weights;  // only weighed anew
     std::optional<size_t> store_bookmark, recall_bookmark;
-    int step_view = 0;  // -1: back, 1: on
+    int step_view = 0;         // -1: back, 1: on
+    bool open_dialog = false;  // for a scene or an environment
+    bool reference_dialog = false;
+    std::optional<std::string> open_recent;  // scene
+    bool copy_view = false;
+    std::optional<SequenceSettings> write_sequence;
+    bool stop_sequence = false;
     bool frame_all = false;
     bool toggle_play = false;
     std::optional<double> seek_s;                    // on the timeline

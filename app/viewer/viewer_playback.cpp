@@ -42,6 +42,7 @@ void Viewer::tick() {
     const double now = now_s();
     const double dt_s = std::clamp(now - last_tick_s_, 0.0, longest_tick_s);
     last_tick_s_ = now;
+    fly_for(dt_s);
     if (!model_.playback.playing || animation() == nullptr) return;
     model_.playback.time_s = advance(model_.playback.time_s, dt_s, static_cast<double>(animation()->duration_s));
 }

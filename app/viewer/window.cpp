@@ -17,6 +17,9 @@ std::string last_error() {
     return description != nullptr ? description : "unknown";
 }
 
+// Nobody pastes more than this into a viewer.
+constexpr size_t longest_paste = 1 << 16;
+
 Key key_of(int glfw_key) {
     static const std::map<int, Key> named = {{GLFW_KEY_SPACE, Key::space},
                                              {GLFW_KEY_COMMA, Key::comma},
@@ -87,6 +90,12 @@ struct Window::Handle {
         glfwSetScrollCallback(
             window, [](GLFWwindow* w, double x, double y) { of(w).events.emplace_back(Scrolled{Vec2(x, y)}); });
         glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int bits) {
+            // The clipboard comes before the key that asks for it.
+            if (key == GLFW_KEY_V && action == GLFW_PRESS && (bits & GLFW_MOD_CONTROL) != 0) {
+                const char* text = glfwGetClipboardString(w);
+                of(w).events.emplace_back(
+                    TextPasted{std::string(text != nullptr ? text : "").substr(0, longest_paste)});
+            }
             of(w).events.emplace_back(KeyPressed{key_of(key), action != GLFW_RELEASE, modifiers_of(bits)});
         });
         glfwSetCharCallback(
@@ -104,7 +113,7 @@ struct Window::Handle {
     }
 };
 
-Window::Window(Vec2u extent, const std::string& title) {
+Window::Window(Vec2u extent, const std::string& title, bool scaled) {
     if (glfwInit() != GLFW_TRUE)
         throw GlError("there is no display to open a window on (" + last_error() + "); candela render needs none");
     handle_ = std::make_unique<Handle>();
@@ -112,6 +121,7 @@ Window::Window(Vec2u extent, const std::string& title) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, scaled ? GLFW_TRUE : GLFW_FALSE);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     glfwWindowHintString(GLFW_X11_CLASS_NAME, "candela");
@@ -148,6 +158,16 @@ std::vector<InputEvent> Window::wait_for_events(double timeout_s) {
 
 void Window::swap_buffers() {
     glfwSwapBuffers(handle_->window);
+}
+
+void Window::set_clipboard(const std::string& text) {
+    glfwSetClipboardString(handle_->window, text.c_str());
+}
+
+Vec2u Window::extent() const {
+    int width = 0, height = 0;
+    glfwGetWindowSize(handle_->window, &width, &height);
+    return {width, height};
 }
 
 void Window::set_title(const std::string& title) {

@@ -13,9 +13,9 @@ namespace candela {
 
 class Window : public GlContext {
   public:
-    // Opens and makes current, on the main thread only, one at a time. extent in points. Throws GlError where there is
-    // no display or no OpenGL 3.3.
-    Window(Vec2u extent, const std::string& title);
+    // Opens and makes current, on the main thread only, one at a time. extent in the units of the screen; scaled: as
+    // many more as its scale says. Throws GlError where there is no display or no OpenGL 3.3.
+    Window(Vec2u extent, const std::string& title, bool scaled);
     ~Window() override;
 
     const GlFunctions& gl() const override { return gl_; }
@@ -25,6 +25,9 @@ class Window : public GlContext {
     std::vector<InputEvent> wait_for_events(double timeout_s);
     void swap_buffers();
     void set_title(const std::string& title);
+    void set_clipboard(const std::string& text);
+    // In the units of the screen, without its frame.
+    Vec2u extent() const;
 
   private:
     struct Handle;

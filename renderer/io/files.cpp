@@ -101,6 +101,21 @@ fs::path AssetFiles::resolve(std::string_view uri) const {
     throw FileError(shown + "does not exist beside the asset");
 }
 
+fs::path AssetFiles::place_of(std::string_view uri) const noexcept {
+    try {
+        return resolve(uri);
+    } catch (const FileError&) {
+        // It may still come.
+    }
+    try {
+        if (has_scheme(uri)) return {};
+        const fs::path name(percent_decode(uri));
+        return name.is_absolute() ? fs::path{} : (directory_ / name).lexically_normal();
+    } catch (const std::exception&) {
+        return {};
+    }
+}
+
 uint64_t file_size_bytes(const fs::path& file) {
     std::error_code error;
     const fs::file_status status = fs::status(file, error);

@@ -25,6 +25,8 @@ class AssetFiles {
     // The regular file that a relative URI names (percent-encoding decoded). Throws FileError where it has a scheme, is
     // absolute, leads outside the directory (also through symbolic links), or does not exist.
     std::filesystem::path resolve(std::string_view uri) const;
+    // Where that file is or should be; empty where no file of the asset can have that name.
+    std::filesystem::path place_of(std::string_view uri) const noexcept;
 
   private:
     std::filesystem::path directory_;

@@ -54,6 +54,19 @@ AssetFiles open_directory(LoadContext& context, const std::filesystem::path& pat
     }
 }
 
+std::vector<std::string> files_named_by(const Layout& layout, const AssetFiles& files) {
+    std::vector<std::string> out;
+    const auto add = [&](const std::optional<std::string>& uri) {
+        if (!uri || is_data_uri(*uri)) return;
+        if (const std::filesystem::path place = files.place_of(*uri); !place.empty()) out.push_back(place.string());
+    };
+    for (const auto& buffer : layout.buffers)
+        add(buffer.uri);
+    for (const auto& image : layout.images)
+        add(image.uri);
+    return out;
+}
+
 void take_rest_pose(LoadContext& context, Scene& scene) {
     charge_posed_meshes(context, scene);
     mark_moving_nodes(scene);
@@ -80,6 +93,7 @@ Scene load(LoadContext& context, std::span<const std::byte> bytes, const std::fi
     context.check_cancel();
 
     const AssetFiles files = open_directory(context, path);
+    scene.files = files_named_by(layout, files);
     BufferStore buffers(context, layout, files, chunks.bin);
     AccessorReader accessors(context, layout, buffers);
     AssetImages images(context, layout, files, buffers);

@@ -319,7 +319,8 @@ glm::mat3x2 compose_uv_transform(const UvTransform& transform);
 // Copies share meshes, pictures and animations; whoever changes one of these puts another in its place. So equal
 // pointers tell that a mesh has the same shape in two poses.
 struct Scene {
-    std::string source;  // the path as given
+    std::string source;              // the path as given
+    std::vector<std::string> files;  // that it names, where they are or should be
     // The file's meshes; then, one for each instance that deforms, its mesh in this pose.
     std::vector<std::shared_ptr<const Mesh>> meshes;
     uint32_t posed_mesh_count = 0;

@@ -55,6 +55,44 @@ TEST_F(CommandLine, ChoicesAreNamed) {
     EXPECT_NE(run("render --help").text.find("--estimator bsdf|light|mis"), std::string::npos);
 }
 
+TEST_F(CommandLine, OnlyTheWindowKnowsOfSettings) {
+    const std::filesystem::path settings = folder_ / "candela" / "settings.json";
+    std::filesystem::create_directories(settings.parent_path());
+    std::ofstream(settings) << R"({"theme": "light", "exposure_ev": 3, "panels": true, "what": )";
+    const std::string configured = file("");
+    const Outcome with = run("screenshot -o " + file("a.png") + tiny, "", configured);
+    EXPECT_EQ(with.status, 0);
+    EXPECT_EQ(with.text, "");
+    EXPECT_EQ(run("info assets/cornell_box.glb", "", configured).text.find("settings"), std::string::npos);
+    run("screenshot -o " + file("b.png") + tiny);
+    run("screenshot -o " + file("c.png") + tiny + "--theme light --exposure 3");
+    const auto bytes = [&](const char* name) {
+        std::ifstream picture(folder_ / name, std::ios::binary);
+        const std::string all((std::istreambuf_iterator<char>(picture)), std::istreambuf_iterator<char>());
+        return decode_ldr(std::as_bytes(std::span(all)));
+    };
+    EXPECT_EQ(bytes("a.png").pixels(), bytes("b.png").pixels());
+    EXPECT_NE(bytes("a.png").pixels(), bytes("c.png").pixels());
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(settings.parent_path()), {}), 1);
+}
+
+TEST_F(CommandLine, ATurntableGoesAroundTheTarget) {
+    const Outcome outcome = run("render assets/veach_plates.glb -o " + file("t.exr") + tiny +
+                                "--turntable 4 --eye 0,2,9 --target 0,2,0 --filter box");
+    EXPECT_EQ(outcome.status, 0) << outcome.text;
+    for (const char* name : {"t_0000.exr", "t_0001.exr", "t_0002.exr", "t_0003.exr"})
+        ASSERT_TRUE(std::filesystem::exists(folder_ / name)) << name;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "t_0004.exr"));
+    // The same views by hand.
+    run("render assets/veach_plates.glb -o " + file("0.exr") + tiny + "--eye 0,2,9 --target 0,2,0 --filter box");
+    run("render assets/veach_plates.glb -o " + file("1.exr") + tiny + "--eye 9,2,0 --target 0,2,0 --filter box");
+    EXPECT_EQ(read_linear(folder_ / "t_0000.exr").pixels(), read_linear(folder_ / "0.exr").pixels());
+    const Outcome same = run("compare --max-rmse 0.02 " + file("t_0001.exr") + " " + file("1.exr"));
+    EXPECT_EQ(same.status, 0) << same.text;
+    const Outcome other = run("compare --max-rmse 0.02 " + file("t_0003.exr") + " " + file("1.exr"));
+    EXPECT_EQ(other.status, 1) << other.text;
+}
+
 TEST_F(CommandLine, ThePictureDoesNotDependOnThreads) {
     run("render -o " + file("a.exr") + tiny + "-t 1");
     run("render -o " + file("b.exr") + tiny + "-t 3");
@@ -167,6 +205,11 @@ TEST_F(CommandLine, WrongUsageIsTwo) {
                                          "screenshot -o " + file("a.png") + " --metric flip",
                                          "screenshot -o " + file("a.png") + " --compare-with bsdf --map error",
                                          "screenshot -o " + file("a.png") + " --open doors",
+                                         "screenshot -o " + file("a.png") + " --theme pink",
+                                         "screenshot -o " + file("a.png") + " --ui-scale 9",
+                                         "screenshot -o " + file("a.png") + " --watch",
+                                         "render -o " + file("a.png") + " --turntable 0",
+                                         "render -o " + file("a.png") + " --turntable 4 --frames 0:3",
                                          "screenshot -o " + file("a.png") + " --variant red",
                                          "render -o " + file("a.exr") + " --aov colour"}) {
         const Outcome outcome = run(arguments);

@@ -18,10 +18,12 @@ struct Outcome {
     std::string text;  // standard output and error together
 };
 
-// before: shell commands that prepare its surroundings.
-inline Outcome run(const std::string& arguments, const std::string& before = "") {
+// before: shell commands that prepare its surroundings. configuration: where it might find settings; nobody's own.
+inline Outcome run(const std::string& arguments, const std::string& before = "",
+                   const std::string& configuration = "/dev/null") {
     Outcome out;
-    FILE* pipe = popen((before + std::string(CANDELA_PROGRAM) + " " + arguments + " 2>&1 </dev/null").c_str(), "r");
+    const std::string program = "XDG_CONFIG_HOME=" + configuration + " " + CANDELA_PROGRAM;
+    FILE* pipe = popen((before + program + " " + arguments + " 2>&1 </dev/null").c_str(), "r");
     std::array<char, 4096> buffer{};
     while (const size_t n = fread(buffer.data(), 1, buffer.size(), pipe))
         out.text.append(buffer.data(), n);

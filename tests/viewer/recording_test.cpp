@@ -123,6 +123,38 @@ TEST(Recordings, AViewThatWasOrbitedThroughPanelsComesBackToTheBit) {
     EXPECT_FALSE(std::filesystem::exists(path + ".part"));
 }
 
+// Flying depends on the clock, a pasted view and a changed file on what is outside of the window; panels are used by
+// keyboard.
+TEST(Recordings, FlyingPastingReloadingAndThePanelsByKeyboardComeBackToTheBit) {
+    const test::TemporaryFolder folder("candela recording");
+    const std::string path = (folder.path() / "a.rec").string();
+    RecordedSession session(path, {"assets/cornell_box.glb", "--spp", "2", "-t", "2", "--theme", "light"});
+    const OrbitView first = session.viewer().model().view;
+    session.round({TextPasted{"--eye 278,273,-600 --target 250,273,-599 --exposure 0.5 \"--tonemap"}});
+    EXPECT_TRUE(session.viewer().model().notice_is_error);
+    session.press(Key::escape);
+    session.round({TextPasted{"--eye 278,273,-600\n--target 250,273,0 --exposure 0.5"}});
+    session.press(Key::f);
+    session.round({KeyPressed{Key::w, true, {}}});
+    for (int i = 0; i < 9; ++i)
+        session.round({});
+    session.round({KeyPressed{Key::d, true, {.shift = true}}, KeyPressed{Key::w, false, {.shift = true}}});
+    for (int i = 0; i < 4; ++i)
+        session.round({});
+    session.round({KeyPressed{Key::d, false, {}}});
+    session.press(Key::f);
+    session.round({SceneFileChanged{}});
+    session.settle();
+    session.press(Key::down);
+    for (int i = 0; i < 12 && session.viewer().model().view.camera.yfov_radians == first.camera.yfov_radians; ++i) {
+        for (const Key key : {Key::down, Key::space, Key::right, Key::right, Key::escape})
+            session.press(key);
+    }
+    EXPECT_NE(session.viewer().model().view.camera.yfov_radians, first.camera.yfov_radians);
+    const ImageRgba8 seen = session.finish();
+    EXPECT_EQ(seen.pixels(), replayed(path, 1).pixels());
+}
+
 TEST(SteadyFigures, NothingThatWasMeasuredIsLeft) {
     SessionStatus status;
     status.spp = 4;

@@ -84,7 +84,8 @@ class WindowTest : public testing::Test {
         arguments.insert(arguments.end(), more.begin(), more.end());
         candela_ = std::make_unique<Process>(
             arguments,
-            std::vector<std::string>{"DISPLAY=" + display_->name(), "LIBGL_ALWAYS_SOFTWARE=1", "WAYLAND_DISPLAY="},
+            std::vector<std::string>{"DISPLAY=" + display_->name(), "LIBGL_ALWAYS_SOFTWARE=1",
+                                     "WAYLAND_DISPLAY=", "XDG_CONFIG_HOME=" + configuration_.path().string()},
             error_file_);
         const std::string id = display_->xdotool("search --sync --onlyvisible --name '^candela - '");
         ASSERT_FALSE(id.empty()) << "no window";
@@ -126,6 +127,7 @@ class WindowTest : public testing::Test {
         return title() == wanted;
     }
 
+    TemporaryFolder configuration_;  // nobody's settings are read or written
     std::unique_ptr<VirtualDisplay> display_;
     std::unique_ptr<Process> candela_;
     std::string error_file_;
@@ -252,6 +254,56 @@ TEST_F(WindowTest, ARecordedSessionComesBackWithoutAWindow) {
     EXPECT_EQ(difference(last, decode_ldr(std::as_bytes(std::span(bytes)))), 0);
 }
 
+TEST_F(WindowTest, ItWatchesFilesFliesAndCopiesViews) {
+    const TemporaryFolder folder("candela window watch");
+    const std::filesystem::path scene = folder.path() / "box.glb";
+    std::filesystem::copy(asset("cornell_box.glb"), scene);
+    open(scene.string(), "16", {"--watch"});
+    const ImageRgba8 first = wait_for("the first converged picture", says_done);
+    const auto returns = [&](const ImageRgba8& now) { return says_done(now) && difference(first, now) < 3; };
+
+    // The view goes out and comes back as text; between them keys fly.
+    act("key ctrl+c");
+    act("key f keydown w sleep 0.6 keyup w key f");
+    wait_for_change("a view from farther in", first, 6.0);
+    act("key ctrl+v");
+    wait_for("the view that was copied", returns);
+
+    std::filesystem::copy(asset("veach_plates.glb"), scene, std::filesystem::copy_options::overwrite_existing);
+    wait_for_change("what is in the file now", first, 6.0);
+    std::filesystem::copy(asset("cornell_box.glb"), scene, std::filesystem::copy_options::overwrite_existing);
+    wait_for("what was in it before", returns);
+    act("key ctrl+q");
+    EXPECT_EQ(candela_->wait_for_exit(10), 0);
+}
+
+TEST_F(WindowTest, ItRemembersHowItLooked) {
+    const std::filesystem::path settings = configuration_.path() / "candela" / "settings.json";
+    const auto text = [](const std::filesystem::path& path) {
+        std::ifstream file(path);
+        return std::string((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    };
+    // What is broken costs a line, and nothing else.
+    std::filesystem::create_directories(settings.parent_path());
+    std::ofstream(settings) << "{ \"theme\": ";
+    open(asset("cornell_box.glb"), "2");
+    const ImageRgba8 first = wait_for("the first converged picture", says_done);
+    const std::string warning = text(error_file_);
+    EXPECT_NE(warning.find("settings.json: it is no JSON"), std::string::npos) << warning;
+    EXPECT_EQ(std::count(warning.begin(), warning.end(), '\n'), 1) << warning;
+    act("key Tab key e");
+    const ImageRgba8 changed = wait_for_change("panels and a brighter picture", first, 4.0);
+    act("key ctrl+q");
+    ASSERT_EQ(candela_->wait_for_exit(10), 0);
+    EXPECT_NE(text(settings).find("\"exposure_ev\": 0.25"), std::string::npos) << text(settings);
+
+    open(asset("cornell_box.glb"), "2");
+    wait_for_return("what was there when the window closed", changed);
+    EXPECT_EQ(text(error_file_), "");
+    act("key ctrl+q");
+    EXPECT_EQ(candela_->wait_for_exit(10), 0);
+}
+
 TEST_F(WindowTest, ConvergedItRests) {
     open(asset("cornell_box.glb"), "2");
     wait_for("the converged picture", says_done);
@@ -268,7 +320,8 @@ TEST_F(WindowTest, AnInterruptEndsIt) {
 }
 
 TEST_F(WindowTest, WithoutADisplayItSaysSo) {
-    Process process({CANDELA_PROGRAM, asset("cornell_box.glb")}, {"DISPLAY=", "WAYLAND_DISPLAY="}, error_file_);
+    Process process({CANDELA_PROGRAM, asset("cornell_box.glb")},
+                    {"DISPLAY=", "WAYLAND_DISPLAY=", "XDG_CONFIG_HOME=" + configuration_.path().string()}, error_file_);
     EXPECT_EQ(process.wait_for_exit(10), 4);
     std::ifstream log(error_file_);
     std::string line;
