@@ -64,7 +64,7 @@ ImageRgba8 decode_jpeg(std::span<const std::byte> bytes, const DecodeLimits& lim
     const bool inverted = info.saw_Adobe_marker != 0;
     jpeg_start_decompress(&info);
 
-    ImageRgba8 out(static_cast<int>(info.output_width), static_cast<int>(info.output_height));
+    ImageRgba8 out = ImageRgba8::unfilled(static_cast<int>(info.output_width), static_cast<int>(info.output_height));
     while (info.output_scanline < info.output_height) {
         JSAMPROW row = &out(0, static_cast<int>(info.output_scanline)).r;
         jpeg_read_scanlines(&info, &row, 1);

@@ -3,16 +3,37 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <new>
 #include <vector>
 
 #include "renderer/math/math.h"
 
 namespace candela {
 
+// Leaves new elements as they are, where no value is given for them.
+template <typename T>
+struct UnfilledAllocator : std::allocator<T> {
+    template <typename U>
+    void construct(U* at) noexcept {
+        ::new (static_cast<void*>(at)) U;
+    }
+};
+
 template <typename T>
 class Image {
   public:
+    using Pixels = std::vector<T, UnfilledAllocator<T>>;
+
     Image() = default;
+    // For those who write every pixel.
+    static Image unfilled(int width, int height) {
+        Image out;
+        out.width_ = width;
+        out.height_ = height;
+        out.pixels_ = Pixels(static_cast<size_t>(width) * static_cast<size_t>(height));
+        return out;
+    }
     Image(int width, int height, T fill = T{})
         : width_(width), height_(height), pixels_(static_cast<size_t>(width) * static_cast<size_t>(height), fill) {}
 
@@ -29,13 +50,13 @@ class Image {
     }
     T* data() { return pixels_.data(); }
     const T* data() const { return pixels_.data(); }
-    std::vector<T>& pixels() { return pixels_; }
-    const std::vector<T>& pixels() const { return pixels_; }
+    Pixels& pixels() { return pixels_; }
+    const Pixels& pixels() const { return pixels_; }
 
   private:
     int width_ = 0;
     int height_ = 0;
-    std::vector<T> pixels_;
+    Pixels pixels_;
 };
 
 using Rgba8 = glm::u8vec4;

@@ -129,7 +129,7 @@ std::vector<ImageRgba8> make_mip_chain(const ImageRgba8& image, MipColors colors
     std::vector<ImageRgba8> levels;
     const ImageRgba8* from = &image;
     while (from->width() > 1 || from->height() > 1) {
-        ImageRgba8 to(std::max(from->width() / 2, 1), std::max(from->height() / 2, 1));
+        ImageRgba8 to = ImageRgba8::unfilled(std::max(from->width() / 2, 1), std::max(from->height() / 2, 1));
         const bool even = from->width() % 2 == 0 && from->height() % 2 == 0;
         for (int y = 0; y < to.height(); ++y) {
             if (even) {
