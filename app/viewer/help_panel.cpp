@@ -57,6 +57,17 @@ void draw_help() {
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing |
                      ImGuiWindowFlags_AlwaysAutoResize);
     const size_t columns = wide ? 2 : 1, height = (std::size(rows) + columns - 1) / columns;
+    // In a narrow window the keys stand below what they do.
+    if (display.x < 40 * unit) {
+        for (const auto& row : rows) {
+            ImGui::TextDisabled("%s", row[0]);
+            ImGui::Indent(unit);
+            ImGui::TextUnformatted(row[1]);
+            ImGui::Unindent(unit);
+        }
+        ImGui::End();
+        return;
+    }
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(0.5f * unit, 0.13f * unit));
     if (ImGui::BeginTable("keys", static_cast<int>(2 * columns), ImGuiTableFlags_SizingFixedFit)) {
         for (size_t y = 0; y < height; ++y) {

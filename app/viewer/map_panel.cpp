@@ -70,7 +70,8 @@ void draw_badge(const ViewerModel& model) {
 void draw_wipe(const ViewerModel& model) {
     const std::optional<float> line = wipe_x(model);
     if (!line) return;
-    const float unit = ImGui::GetFontSize(), bottom = ImGui::GetIO().DisplaySize.y - 1.8f * unit;
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float unit = ImGui::GetFontSize(), bottom = display.y - 1.8f * unit;
     const float x = std::round(*line);
     ImDrawList* draw = ImGui::GetBackgroundDrawList();
     draw->AddLine({x, 0}, {x, bottom}, IM_COL32(0, 0, 0, 160), 3 * line_scale());
@@ -85,7 +86,8 @@ void draw_wipe(const ViewerModel& model) {
                                 {x + side * 0.35f * r, y + 0.8f * r}, ImGui::GetColorU32(ImGuiCol_Text));
     }
 
-    // What is on either side, where there is room for it.
+    // What is on either side, where there is room for it; in a tiny window the legend alone says it.
+    if (model.map.shown && is_tiny()) return;
     const float left = model.picture_left, right = left + model.picture_width;
     const IntegratorSettings& settings = model.job.request.settings;
     const IntegratorSettings other = model.comparison.settings.in(settings);
@@ -94,13 +96,20 @@ void draw_wipe(const ViewerModel& model) {
         picture = side_words(words_of(settings, other), model.film);
         title = side_words(words_of(other, settings), model.comparison.film);
     }
-    const float top = bottom - 2.2f * unit;
-    if (x - left > ImGui::CalcTextSize(picture.c_str()).x + 2 * unit) label(draw, picture.c_str(), x - unit, top, 1);
-    if (right - x > ImGui::CalcTextSize(title.c_str()).x + 2 * unit) label(draw, title.c_str(), x + unit, top, 0);
+    // Above the legend, where that stands below them.
+    const auto top = [&](float from) {
+        const bool over_legend = model.map.shown && from < std::min(20 * unit, display.x - 4 * unit) + 3.6f * unit;
+        return bottom - (over_legend ? 8.2f : 2.2f) * unit;
+    };
+    const float picture_width = ImGui::CalcTextSize(picture.c_str()).x,
+                title_width = ImGui::CalcTextSize(title.c_str()).x;
+    if (x - left > picture_width + 2 * unit)
+        label(draw, picture.c_str(), x - unit, top(x - picture_width - 1.4f * unit), 1);
+    if (right - x > title_width + 2 * unit) label(draw, title.c_str(), x + unit, top(x + 0.6f * unit), 0);
 }
 
 void draw_legend(const ViewerModel& model, bool beside_readings) {
-    if (!model.map.shown || !model.has_scene()) return;
+    if (!model.map.shown || !model.has_scene() || !has_room_beside_panels(model)) return;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float unit = ImGui::GetFontSize();
     if (model.reference && model.reference->held) return;

@@ -34,10 +34,12 @@ void apply_theme(Theme theme, float scale) {
     style.FrameRounding = 4;
     style.GrabRounding = 4;
     style.PopupRounding = 4;
-    style.WindowBorderSize = 0;
+    // So that panels have an edge on a picture of their own colour.
+    style.WindowBorderSize = 1;
     style.WindowPadding = {12, 12};
     style.FramePadding = {8, 4};
     style.ItemSpacing = {8, 8};
+    style.ItemInnerSpacing = {8, 4};
     style.ScrollbarSize = 12;
     ImVec4* colors = style.Colors;
     colors[ImGuiCol_WindowBg] = colors[ImGuiCol_PopupBg] = palette.panel;
@@ -48,6 +50,7 @@ void apply_theme(Theme theme, float scale) {
     colors[ImGuiCol_TableHeaderBg] = palette.field;
     colors[ImGuiCol_SliderGrab] = colors[ImGuiCol_SliderGrabActive] = palette.grab;
     colors[ImGuiCol_CheckMark] = colors[ImGuiCol_PlotHistogram] = colors[ImGuiCol_NavHighlight] = palette.accent;
+    colors[ImGuiCol_Border] = palette.grid;
     colors[ImGuiCol_Text] = palette.text;
     colors[ImGuiCol_TextDisabled] = palette.dim;
     colors[ImGuiCol_TextSelectedBg] = palette.field_active;

@@ -62,9 +62,17 @@ float line_scale() {
     return ImGui::GetFontSize() / 15;
 }
 
+bool is_tiny() {
+    return ImGui::GetIO().DisplaySize.y <= 32 * unit();
+}
+
+bool has_room_beside_panels(const ViewerModel& model) {
+    return !model.show_panels || !is_tiny();
+}
+
 void bound_next_window() {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const float height = display.y > 32 * unit() ? display.y - 4.4f * unit() : 0.55f * display.y;
+    const float height = is_tiny() ? 0.55f * display.y : display.y - 4.4f * unit();
     ImGui::SetNextWindowSizeConstraints({0, 0}, {std::max(display.x - 2 * unit(), 1.0f), std::max(height, 1.0f)});
 }
 
@@ -82,6 +90,7 @@ void draw_status_line(const ViewerModel& model) {
     const ImVec4 &accent = palette_of(model.style.theme).accent, &alarm = palette_of(model.style.theme).alarm;
     const float height = 1.8f * unit(), margin = 0.8f * unit();
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(margin, (height - unit()) / 2));
     ImGui::SetNextWindowPos({0, display.y - height});
@@ -135,7 +144,7 @@ void draw_status_line(const ViewerModel& model) {
         ImGui::PopStyleColor();
     }
     ImGui::End();
-    ImGui::PopStyleVar(3);
+    ImGui::PopStyleVar(4);
 }
 
 void draw_loading_bar(const ViewerModel& model) {
@@ -174,7 +183,7 @@ bool draw_notice(const ViewerModel& model) {
 }
 
 void draw_statistics(const ViewerModel& model) {
-    if (!model.has_scene()) return;
+    if (!model.has_scene() || !has_room_beside_panels(model)) return;
     place({0.0f, 0.0f}, {unit(), unit()});
     bound_next_window();
     ImGui::Begin("statistics", nullptr, overlay_flags | ImGuiWindowFlags_NoInputs);

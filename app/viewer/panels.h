@@ -8,6 +8,9 @@ namespace candela {
 
 // How much wider than at the usual size lines and dots are drawn.
 float line_scale();
+// The window of ours is so low that panels take half of it, and that next to the side panel nothing else has room.
+bool is_tiny();
+bool has_room_beside_panels(const ViewerModel& model);
 // The next window leaves some of the picture to be seen, in however small a window of ours.
 void bound_next_window();
 // The line at the foot: scene, samples, time, speed, error.
@@ -47,7 +50,7 @@ void draw_legend(const ViewerModel& model, bool beside_readings);
 void draw_help();
 void draw_statistics(const ViewerModel& model);
 // The exact values of a validation scene, marked in the picture; nothing for other scenes.
-void draw_validation(const std::vector<ValidationReading>& readings);
+void draw_validation(const ViewerModel& model, const std::vector<ValidationReading>& readings);
 // Bookmarks and views that were left: a section of the side panel.
 void views_section(ViewerModel& model, PanelEdits& edits);
 // Lights that are re-weighted: a section of the side panel.

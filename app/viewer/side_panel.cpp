@@ -186,7 +186,7 @@ PanelEdits draw_side_panel(ViewerModel& model) {
     const float unit = ImGui::GetFontSize();
     const float width = std::min(20 * unit, display.x - 2 * unit);
     ImGui::SetNextWindowPos({display.x - width - unit, unit});
-    const float height = display.y > 32 * unit ? display.y - 4 * unit : 0.55f * display.y;
+    const float height = !is_tiny() ? display.y - 4 * unit : (timeline_is_shown(model) ? 0.35f : 0.55f) * display.y;
     ImGui::SetNextWindowSizeConstraints({width, 0}, {width, height});
     if (std::exchange(model.focuses_panels, false)) ImGui::SetNextWindowFocus();
     ImGui::Begin("panels", nullptr,

@@ -16,9 +16,10 @@ void draw_timeline(const ViewerModel& model, PanelEdits& edits) {
     const Scene& rest = *model.job.rest;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float unit = ImGui::GetFontSize();
-    const float width = std::min(44 * unit, display.x - 2 * unit);
-    // Above the status line.
-    ImGui::SetNextWindowPos({0.5f * display.x, display.y - 2.4f * unit}, ImGuiCond_Always, {0.5f, 1});
+    // Above the status line, beside the side panel where there is room.
+    const float beside = display.x - (model.show_panels ? 21 * unit : 0);
+    const float room = beside > 24 * unit ? beside : display.x, width = std::min(44 * unit, room - 2 * unit);
+    ImGui::SetNextWindowPos({0.5f * room, display.y - 2.4f * unit}, ImGuiCond_Always, {0.5f, 1});
     ImGui::SetNextWindowSize({width, 0});
     ImGui::Begin("timeline", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |

@@ -6,12 +6,14 @@
 
 namespace candela {
 
-void draw_validation(const std::vector<ValidationReading>& readings) {
-    if (readings.empty()) return;
+namespace {
+
+void draw_table(const std::vector<ValidationReading>& readings) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float unit = ImGui::GetFontSize();
     // Above the status line, where nothing else opens.
     ImGui::SetNextWindowPos({unit, display.y - 3 * unit}, ImGuiCond_Always, {0, 1});
+    bound_next_window();
     ImGui::Begin("validation", nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
@@ -33,7 +35,15 @@ void draw_validation(const std::vector<ValidationReading>& readings) {
         ImGui::EndTable();
     }
     ImGui::End();
+}
 
+}  // namespace
+
+void draw_validation(const ViewerModel& model, const std::vector<ValidationReading>& readings) {
+    if (readings.empty()) return;
+    if (has_room_beside_panels(model)) draw_table(readings);
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float unit = ImGui::GetFontSize();
     // A ring around each point, in dark and light so that it shows on any ground.
     ImDrawList* draw = ImGui::GetBackgroundDrawList();
     for (const ValidationReading& r : readings) {

@@ -443,7 +443,7 @@ void Viewer::draw() {
         if (model_.has_scene()) {
             const std::vector<ValidationReading> readings =
                 read_validation(model_.job.scene_path, *model_.job.world, model_.job.request.view, frame_);
-            draw_validation(readings);
+            draw_validation(model_, readings);
             draw_legend(model_, !readings.empty());
         }
         if (model_.show_panels) edits = draw_side_panel(model_);

@@ -98,11 +98,6 @@ void Viewer::paste_view(const std::string& text) {
     redraws_ = 2;
 }
 
-void Viewer::ask_for_file(DialogPurpose purpose) {
-    if (!viewer_options_.touches_files) return;
-    requests_.dialog = purpose;
-}
-
 // Of the scene as it is shown, from the view as it is now.
 void Viewer::write_sequence(const SequenceSettings& settings) {
     if (!model_.has_scene() || writer_.busy() || before_preview_) return;
@@ -113,8 +108,6 @@ void Viewer::write_sequence(const SequenceSettings& settings) {
     FrameWriter::Order order{settings, model_.job, model_.options, model_.view.pivot, 0, 0, {}, {}};
     const bool animated = settings.kind == SequenceKind::animation;
     if (animated && !has_animation()) return;
-    order.job.request.view.camera = model_.view.camera;
-    order.job.request.settings = model_.options.integrator;
     order.options.tone = model_.display.tone;
     if (model_.lights.on) order.light_weights = model_.lights.values();
     double duration_s = 0;
@@ -140,12 +133,6 @@ void Viewer::update_sequence() {
     if (writing == model_.writing) return;
     model_.writing = writing;
     redraws_ = std::max(redraws_, 2);
-}
-
-// What the person set stays, and so does the view.
-void Viewer::reload() {
-    if (animation() != nullptr) seek(model_.playback.time_s);
-    if (!model_.options.scene.empty()) start_load(model_.options, model_.has_scene());
 }
 
 }  // namespace candela

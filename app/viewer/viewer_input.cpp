@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What each input does to the view, the picture and the files.
+// What each input does to the view and the picture.
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "app/picture_file.h"
 #include "app/viewer/viewer.h"
 #include "renderer/integrator/aov.h"
 
@@ -18,21 +17,6 @@ constexpr float dolly_per_step = 0.88f;
 constexpr float exposure_step_ev = 0.25f;
 constexpr float click_points = 2;  // a button that comes up as near was clicked
 constexpr float wipe_step = 0.05f;
-
-bool is_scene_file(const std::string& path) {
-    const std::string extension = extension_of(path);
-    return extension == ".gltf" || extension == ".glb";
-}
-
-bool is_picture_file(const std::string& path) {
-    const std::string extension = extension_of(path);
-    return extension == ".hdr" || extension == ".exr" || extension == ".png";
-}
-
-bool is_environment_file(const std::string& path) {
-    const std::string extension = extension_of(path);
-    return extension == ".hdr" || extension == ".exr";
-}
 
 bool is_digit(Key key) {
     return key >= Key::digit_0 && key <= Key::digit_9;
@@ -390,50 +374,10 @@ void Viewer::set_focus_at_cursor() {
                        view.camera.aperture_diameter_m > 0 ? "" : ": shows with an aperture (Tab)"));
 }
 
-void Viewer::handle_drop(const FilesDropped& event) {
-    if (event.paths.empty()) return;
-    const std::string& path = event.paths.front();
-    if (is_scene_file(path)) {
-        open(path);
-    } else if (event.modifiers.shift && is_picture_file(path)) {
-        load_reference(path);
-    } else if (is_environment_file(path)) {
-        if (!model_.has_scene()) {
-            model_.options.hdri = path;
-            notify(file_name(path) + " will light the next scene");
-            return;
-        }
-        dropped_environment_ = path;
-        environment_dirty_ = true;
-    } else {
-        notify(path + ": is none of .gltf, .glb, .hdr, .exr", true);
-    }
-}
-
 void Viewer::handle_resize(const WindowResized& event) {
     const bool changed = event.pixels != size_.pixels;
     size_ = event;
     if (changed) edit();
-}
-
-void Viewer::open_neighbour(int step) {
-    if (!model_.has_scene()) return;
-    const std::filesystem::path now = model_.job.scene_path;
-    const std::filesystem::path folder = now.parent_path().empty() ? std::filesystem::path(".") : now.parent_path();
-    std::vector<std::filesystem::path> files;
-    std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-        if (is_scene_file(entry.path().string())) files.push_back(entry.path());
-    }
-    std::sort(files.begin(), files.end());
-    const auto found =
-        std::find_if(files.begin(), files.end(), [&](const auto& file) { return file.filename() == now.filename(); });
-    if (found == files.end() || files.size() < 2) {
-        notify("there is no other scene in this folder");
-        return;
-    }
-    const auto count = static_cast<std::ptrdiff_t>(files.size());
-    open(files[static_cast<size_t>(((found - files.begin()) + step + count) % count)].string());
 }
 
 }  // namespace candela

@@ -198,6 +198,31 @@ TEST_F(Habits, ThemeAndSizeChangeThePanelsAndNothingElse) {
     EXPECT_LT(large(100, 97).r, 60) << "the status line is 54 pixels high";
 }
 
+TEST_F(Habits, ATinyWindowStillShowsThePicture) {
+    start(options_for("assets/cornell_box.glb"));
+    context_->resize({320, 200});
+    viewer_->handle(WindowResized{{320, 200}, {320, 200}, 1});
+    finish();
+    now_s_ += 10;
+    const ImageRgba8 before = picture();
+    for (const std::vector<Key>& keys :
+         std::vector<std::vector<Key>>{{Key::tab}, {Key::z}, {Key::h}, {Key::tab, Key::z, Key::h}}) {
+        for (const Key key : keys)
+            press(key);
+        finish();
+        now_s_ += 10;
+        const ImageRgba8 after = picture();
+        size_t covered = 0;
+        for (size_t i = 0; i < after.size(); ++i)
+            covered += after.pixels()[i] != before.pixels()[i] ? 1 : 0;
+        EXPECT_LT(covered, 7 * after.size() / 10);
+        EXPECT_GT(covered, after.size() / 10);
+        for (const Key key : keys)
+            press(key);
+        finish();
+    }
+}
+
 TEST_F(Habits, WhatIsOpenedIsRememberedAndOffered) {
     const test::TemporaryFolder folder;
     const std::filesystem::path scene = folder.path() / "a scene.glb", settings = folder.path() / "c" / "settings.json";
