@@ -24,7 +24,7 @@ std::string find_program(const char* name, const char* path) {
     for (std::string folder; std::getline(folders, folder, ':');) {
         // The current folder is nobody's place for programs.
         if (folder.empty() || folder.front() != '/') continue;
-        const std::string candidate = folder + "/" + name;
+        std::string candidate = folder + "/" + name;
         std::error_code error;
         if (std::filesystem::is_regular_file(candidate, error) && access(candidate.c_str(), X_OK) == 0)
             return candidate;
@@ -44,6 +44,7 @@ std::optional<std::string> output_of(const std::vector<std::string>& command, co
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
     std::vector<std::string> words = command;
     std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
     for (std::string& word : words)
         arguments.push_back(word.data());
     arguments.push_back(nullptr);
