@@ -46,7 +46,7 @@ void compare_section(ViewerModel& model, PanelEdits& edits) {
         other = {static_cast<Estimator>(estimator), static_cast<SamplerKind>(sampler), static_cast<uint32_t>(depth)};
     }
     if (!model.reference) {
-        ImGui::TextDisabled("no reference: drop one with Shift");
+        edits.reference_dialog = ImGui::Button("Open a reference (Ctrl+Shift+O)");
         return;
     }
     ImGui::TextWrapped("reference: %s", file_name(model.reference->path).c_str());

@@ -29,7 +29,7 @@ std::string free_sequence_path(const std::string& scene_path, SequenceKind kind)
     const std::string stem = std::filesystem::path(scene_path).stem().string();
     for (int number = 1;; ++number) {
         std::string path = fmt::format("candela-{}-{}-{:03}.png", stem,
-                                             kind == SequenceKind::turntable ? "turn" : "animation", number);
+                                       kind == SequenceKind::turntable ? "turn" : "animation", number);
         std::error_code error;
         if (!std::filesystem::exists(numbered(path, 0), error)) return path;
     }

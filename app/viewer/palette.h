@@ -10,13 +10,13 @@
 namespace candela {
 
 struct Palette {
-    ImVec4 accent;        // the one colour that says: here, now, chosen
-    ImVec4 alarm;         // failed, biased, not to be trusted
-    ImVec4 text, dim;     // dim: labels, and what is not so important
-    ImVec4 panel, field;  // the ground of windows, and of what can be edited on it
-    ImVec4 field_active, grab;
-    ImVec4 grid, faint_grid;  // of plots
-    ImVec4 second, bound;     // other curves of a plot
+    ImVec4 accent;              // the one colour that says: here, now, chosen
+    ImVec4 alarm;               // failed, biased, not to be trusted
+    ImVec4 text, dim;           // dim: labels, and what is not so important
+    ImVec4 panel, field;        // the ground of windows, and of what can be edited on it
+    ImVec4 field_active, grab;  // grab: of sliders, whose number is read on it
+    ImVec4 grid, faint_grid;    // of plots
+    ImVec4 second, bound;       // other curves of a plot
 };
 
 const Palette& palette_of(Theme theme);

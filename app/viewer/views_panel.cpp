@@ -40,6 +40,7 @@ void views_section(ViewerModel& model, PanelEdits& edits) {
     ImGui::TextDisabled("%s", fmt::format("{} kept, {} of {} MiB", model.status.kept_views,
                                           model.status.kept_bytes >> 20, model.options.limit_views_bytes >> 20)
                                   .c_str());
+    edits.copy_view = ImGui::Button("Copy as text (Ctrl+C)");
 }
 
 }  // namespace candela

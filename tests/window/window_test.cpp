@@ -240,7 +240,7 @@ TEST_F(WindowTest, ARecordedSessionComesBackWithoutAWindow) {
     // A slider of the panels: the field of view.
     act("key Tab");
     wait_for_change("the panels", orbited, 1.0);
-    act(on_window("mousemove") + "250 90 sleep 0.2 mousedown 1 sleep 0.2 mousemove_relative 40 0 sleep 0.2 mouseup 1");
+    act(on_window("mousemove") + "250 121 sleep 0.2 mousedown 1 sleep 0.2 mousemove_relative 40 0 sleep 0.2 mouseup 1");
     act("key e");
     std::this_thread::sleep_for(std::chrono::seconds(1));
     const ImageRgba8 last = wait_for("the last picture", says_done);
