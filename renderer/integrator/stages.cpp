@@ -269,19 +269,19 @@ void start_vertex(PathState& path) noexcept {
 VertexPoints draw_vertex(PathState& path) noexcept {
     start_vertex(path);
     VertexPoints out;
-    out.light = path.sampler.next_2d();
     out.direction = path.sampler.next_2d();
     const Vec2 choices = path.sampler.next_2d();
+    out.light = path.sampler.next_2d();
     const Vec2 rare = path.sampler.next_2d();
-    out.light_choice = choices.x;
-    out.lobe_choice = choices.y;
+    out.lobe_choice = choices.x;
+    out.light_choice = choices.y;
     out.roulette = rare.x;
     out.wavelength = rare.y;
     return out;
 }
 
 VertexPoints vertex_points(const PointBatch& batch, size_t i) noexcept {
-    return {batch.point(i, 0), batch.point(i, 1), batch.x[2][i], batch.y[2][i], batch.x[3][i], batch.y[3][i]};
+    return {batch.point(i, 0), batch.x[1][i], batch.y[1][i], batch.point(i, 2), batch.x[3][i], batch.y[3][i]};
 }
 
 ShadowRequest shade(const World& world, const IntegratorSettings& settings, const Hit& hit, const VertexPoints& u,

@@ -14,12 +14,14 @@ PathState begin_path(const View& view, const IntegratorSettings& settings, Pixel
 // Follows path.ray to the nearest surface.
 Hit extend(const World& world, const PathState& path, RayCounts& counts) noexcept;
 
-// The random numbers of the vertex at the end of the segment, at fixed dimensions of the path's sequence.
+// The random numbers of the vertex at the end of the segment, at fixed dimensions of the path's sequence: first what
+// matters most.
 struct VertexPoints {
     static constexpr size_t pairs = 4;
 
-    Vec2 light, direction;
-    float light_choice = 0, lobe_choice = 0;
+    Vec2 direction;
+    float lobe_choice = 0, light_choice = 0;
+    Vec2 light;
     float roulette = 0, wavelength = 0;
 };
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/sampling/sampler.h"
 
+#include <algorithm>
+
 #include "renderer/math/hash.h"
+#include "renderer/sampling/joint_order.h"
 
 namespace candela {
 
@@ -40,12 +43,20 @@ struct Point {
     float x = 0, y = 0;
 };
 
-// Each pair of dimensions sees the sequence in an order of its own (Burley 2020, section 5), so that pairs are
-// independent. An Owen scramble takes its number with the bits reversed and gives it so.
-[[gnu::always_inline]] inline Point sobol_point(uint32_t seed, uint32_t index) {
-    const uint32_t shuffled = reverse_bits(laine_karras(reverse_bits(index), seed));
-    return {unit_float(reverse_bits(laine_karras(shuffled, hash_u32(seed ^ 0xe6fe3bebu)))),
-            unit_float(reverse_bits(laine_karras(reversed_sobol_second(shuffled), hash_u32(seed ^ 0x2d15a2a7u))))};
+// A random order of the sequence, so that pairs are independent (Burley 2020, section 5). An Owen scramble takes its
+// number with the bits reversed and gives it so.
+[[gnu::always_inline]] inline uint32_t shuffled(uint32_t seed, uint32_t index) {
+    return reverse_bits(laine_karras(reverse_bits(index), seed));
+}
+
+constexpr bool is_joint(uint32_t dimension) {
+    return dimension < 2 * joint_pairs;
+}
+
+// Point number `ordered` of the scrambled sequence.
+[[gnu::always_inline]] inline Point sobol_point(uint32_t seed, uint32_t ordered) {
+    return {unit_float(reverse_bits(laine_karras(ordered, hash_u32(seed ^ 0xe6fe3bebu)))),
+            unit_float(reverse_bits(laine_karras(reversed_sobol_second(ordered), hash_u32(seed ^ 0x2d15a2a7u))))};
 }
 
 [[gnu::always_inline]] inline Point independent_point(uint32_t seed, uint32_t index) {
@@ -53,11 +64,31 @@ struct Point {
     return {unit_float(a), unit_float(hash_u32(a ^ 0x9e3779b9u))};
 }
 
+// The orders of samplers of which some are in the first pairs; most have the same index.
+void find_order(PointBatch& batch, size_t count, uint32_t offset) {
+    uint32_t last_index = 0, last_dimension = 0, last = joint_order(0, 0);
+    for (size_t i = 0; i < count; ++i) {
+        const uint32_t dimension = batch.dimension[i] + offset;
+        const uint32_t index = batch.index[i];
+        if (!is_joint(dimension)) {
+            batch.ordered[i] = shuffled(hash_combine(batch.pixel_hash[i], dimension), index);
+            continue;
+        }
+        if (index != last_index || dimension != last_dimension) {
+            last_index = index;
+            last_dimension = dimension;
+            last = joint_order(dimension / 2, index);
+        }
+        batch.ordered[i] = last;
+    }
+}
+
 // The loops of PointBatch::draw, compiled for more than one instruction set.
 [[gnu::always_inline]] inline void draw_all(PointBatch& batch, size_t count, size_t pairs) {
     // Whole vectors: what lies beyond count is computed in vain.
     constexpr size_t step = 8;
     const size_t end = (count + step - 1) / step * step;
+    const uint32_t first = *std::min_element(batch.dimension, batch.dimension + count);
     for (size_t pair = 0; pair < pairs; ++pair) {
         float* const x = batch.x[pair];
         float* const y = batch.y[pair];
@@ -65,17 +96,19 @@ struct Point {
         const auto fill = [&](auto point) {
             for (size_t i = 0; i < end; i += step) {
                 for (size_t k = i; k < i + step; ++k) {
-                    const Point p =
-                        point(hash_combine(batch.pixel_hash[k], batch.dimension[k] + offset), batch.index[k]);
+                    const Point p = point(hash_combine(batch.pixel_hash[k], batch.dimension[k] + offset), k);
                     x[k] = p.x;
                     y[k] = p.y;
                 }
             }
         };
         if (batch.kind == SamplerKind::independent) {
-            fill([](uint32_t seed, uint32_t index) { return independent_point(seed, index); });
+            fill([&](uint32_t seed, size_t k) { return independent_point(seed, batch.index[k]); });
+        } else if (is_joint(first + offset)) {
+            find_order(batch, count, offset);
+            fill([&](uint32_t seed, size_t k) { return sobol_point(seed, batch.ordered[k]); });
         } else {
-            fill([](uint32_t seed, uint32_t index) { return sobol_point(seed, index); });
+            fill([&](uint32_t seed, size_t k) { return sobol_point(seed, shuffled(seed, batch.index[k])); });
         }
     }
 }
@@ -100,12 +133,17 @@ float Sampler::next_1d() {
 
 Vec2 Sampler::next_2d() {
     const uint32_t seed = hash_combine(pixel_hash_, dimension_);
+    const auto draw = [&] {
+        if (kind_ == SamplerKind::independent) return independent_point(seed, index_);
+        return sobol_point(seed, is_joint(dimension_) ? joint_order(dimension_ / 2, index_) : shuffled(seed, index_));
+    };
+    const Point point = draw();
     dimension_ += 2;
-    const Point point = kind_ == SamplerKind::independent ? independent_point(seed, index_) : sobol_point(seed, index_);
     return {point.x, point.y};
 }
 
 void PointBatch::draw(size_t count, size_t pairs) noexcept {
+    if (count == 0) return;
 #ifdef __x86_64__
     static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
     if (has_avx2) {

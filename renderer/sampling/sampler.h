@@ -13,8 +13,12 @@ enum class SamplerKind : uint8_t { sobol, independent };
 // point i / replicate_count of that replicate's own sequence. Their difference is an honest error estimate.
 inline constexpr uint32_t replicate_count = 2;
 
-// A 16-byte value. sobol: Owen-scrambled Sobol points in pairs of dimensions, each pair shuffled and scrambled by its
-// own hash (Burley 2020, "Practical Hash-based Owen Scrambling"); independent: hashed counter.
+// So many pairs of dimensions, the first ones, are stratified together too: what the camera and the first surface want.
+inline constexpr uint32_t joint_pairs = 5;
+
+// A 16-byte value. sobol: Owen-scrambled Sobol points in pairs of dimensions (Burley 2020, "Practical Hash-based Owen
+// Scrambling"). The first pairs walk through them in orders that make good points of higher dimension (joint_order.h),
+// the later ones in random orders, each by its own hash; independent: hashed counter.
 class Sampler {
   public:
     Sampler() = default;
@@ -61,6 +65,7 @@ struct PointBatch {
     alignas(64) uint32_t pixel_hash[capacity];
     alignas(64) uint32_t index[capacity];
     alignas(64) uint32_t dimension[capacity];
+    alignas(64) uint32_t ordered[capacity];
     alignas(64) float x[most_pairs][capacity];
     alignas(64) float y[most_pairs][capacity];
     SamplerKind kind = SamplerKind::sobol;

@@ -30,7 +30,7 @@ TEST(GuideRays, TellAlbedoNormalAndDepth) {
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(guides.albedo(5, 8)[c] / 4, Vec3(0.8f, 0.4f, 0.2f)[c], 1e-3f);
     EXPECT_NEAR(guides.normal(5, 8).z / 4, 1, 1e-5f);
-    EXPECT_NEAR(guides.depth(11, 8) / 4, 4, 0.1f);
+    EXPECT_NEAR(guides.depth(9, 8) / 4, 4, 0.1f);
     // Beside the wall nothing divides the colour, and nothing has a face.
     EXPECT_EQ(guides.albedo(20, 8), Vec3(4));
     EXPECT_EQ(guides.normal(20, 8), Vec3(0));

@@ -241,7 +241,7 @@ TEST(PathReuse, SharedPathsShowTheSamePicture) {
         IntegratorSettings settings;
         settings.estimator = estimator;
         settings.max_depth = 6;
-        expect_same_picture(*world, test::room_view(32), settings, Vec2u(8), 24, 4e-3);
+        expect_same_picture(*world, test::room_view(32), settings, Vec2u(8), 32, 4e-3);
     }
 }
 

@@ -26,6 +26,51 @@ TEST(Sampler, EachPairOfEachReplicateIsAZeroTwoNet) {
     }
 }
 
+// Whether the first 2^m points of a replicate, in the two pairs together, are a (t, m, 4)-net in base 2: every
+// elementary interval of volume 2^(t - m) holds 2^t of them.
+bool are_net(uint32_t first_dimension, uint32_t second_dimension, uint32_t t, uint32_t m) {
+    std::vector<std::array<float, 4>> points;
+    for (uint32_t i = 0; i < 1u << m; ++i) {
+        Sampler sampler(SamplerKind::sobol, Vec2u(5, 9), i * replicate_count, 3);
+        sampler.start_dimension(first_dimension);
+        const Vec2 a = sampler.next_2d();
+        sampler.start_dimension(second_dimension);
+        const Vec2 b = sampler.next_2d();
+        points.push_back({a.x, a.y, b.x, b.y});
+    }
+    const uint32_t digits = m - t;
+    for (uint32_t a = 0; a <= digits; ++a) {
+        for (uint32_t b = 0; a + b <= digits; ++b) {
+            for (uint32_t c = 0; a + b + c <= digits; ++c) {
+                const std::array<uint32_t, 4> splits{a, b, c, digits - a - b - c};
+                std::vector<uint32_t> cells(size_t{1} << digits, 0);
+                for (const auto& point : points) {
+                    uint32_t cell = 0;
+                    for (size_t d = 0; d < 4; ++d) {
+                        const auto slab = static_cast<uint32_t>(point[d] * static_cast<float>(1u << splits[d]));
+                        cell = (cell << splits[d]) | slab;
+                    }
+                    ++cells[cell];
+                }
+                if (std::ranges::any_of(cells, [&](uint32_t held) { return held != 1u << t; })) return false;
+            }
+        }
+    }
+    return true;
+}
+
+TEST(Sampler, TheFirstPairsAreNetsTogether) {
+    constexpr uint32_t pixel = 0, lens = 2, direction = 4, choices = 6, light = 8;
+    for (uint32_t m = 2; m <= 6; ++m)
+        EXPECT_TRUE(are_net(pixel, direction, m == 5 ? 2 : 1, m)) << m;
+    EXPECT_TRUE(are_net(pixel, direction, 2, 8));
+    for (const uint32_t dimension : {lens, choices, light})
+        EXPECT_TRUE(are_net(pixel, dimension, 4, 8)) << dimension;
+    EXPECT_TRUE(are_net(direction, choices, 3, 8));
+    // What is shuffled by chance is no such net.
+    EXPECT_FALSE(are_net(pixel, 2 * joint_pairs, 3, 8));
+}
+
 TEST(Sampler, IsAPureFunctionAndStaysBelowOne) {
     for (const SamplerKind kind : {SamplerKind::sobol, SamplerKind::independent}) {
         for (uint32_t i = 0; i < 10000; ++i) {
