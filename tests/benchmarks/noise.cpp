@@ -5,17 +5,15 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "renderer/math/frame.h"
-#include "renderer/math/hash.h"
-#include "renderer/sampling/warp.h"
 #include "renderer/session/schedule.h"
 #include "tests/benchmarks/made_scenes.h"
+#include "tests/benchmarks/percentile.h"
 #include "tests/benchmarks/shared_scenes.h"
+#include "tests/benchmarks/throughput.h"
 
 namespace candela::bench {
 namespace {
@@ -58,13 +56,6 @@ std::vector<Variant> variants() {
     return out;
 }
 
-// Of this thread.
-double cpu_seconds() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 struct Picture {
     std::vector<float> luminance = std::vector<float>(size_t{side} * side);
     double cpu_s = 0;
@@ -94,11 +85,6 @@ Picture render(const LoadedScene& scene, const IntegratorSettings& settings, uin
     return out;
 }
 
-double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-    return values[values.size() / 2];
-}
-
 // Mean over the pixels of variance / (mean² + (0.1 · mean of the picture)²), without the worst thousandth.
 double relative_mse(const std::vector<Picture>& pictures) {
     const size_t pixels = size_t{side} * side;
@@ -125,54 +111,6 @@ double relative_mse(const std::vector<Picture>& pictures) {
     return sum / static_cast<double>(kept);
 }
 
-// Paths per CPU second that the accelerator alone traces: cosine-distributed bounces off every surface, at each a ray
-// to a point of some lamp (straight up where there is none), and no shading at all.
-double limit_paths_per_s(const LoadedScene& scene) {
-    const World& world = *scene.world;
-    const View view = view_of(scene, Vec2u(side));
-    std::vector<double> rates;
-    float sink = 0;
-    for (uint32_t repeat = 0; repeat < 5; ++repeat) {
-        const double start = cpu_seconds();
-        for (uint32_t i = 0; i < side * side; ++i) {
-            uint32_t state = hash_combine(repeat, i);
-            const auto uniform = [&] { return unit_float(state = hash_u32(state + 0x9e3779b9u)); };
-            const float u = uniform(), v = uniform();
-            const Vec2 at((static_cast<float>(i % side) + u) / side, (static_cast<float>(i / side) + v) / side);
-            Ray ray = generate_ray(view.camera, 1.0f, at, Vec2(0.5f));
-            for (uint32_t depth = 0; depth < max_depth; ++depth) {
-                const Hit hit = world.accel->intersect(ray, 0);
-                if (!hit.valid()) break;
-                const Surface& surface = world.surfaces[hit.surface];
-                const Vec3u index = surface.primitive->triangles[hit.triangle];
-                const Vec3 p0 = surface.positions[index.x];
-                const Vec3 cross = glm::cross(surface.positions[index.y] - p0, surface.positions[index.z] - p0);
-                Vec3 normal = glm::normalize(Mat3(world.transforms[surface.transform].world_from_normal) * cross);
-                if (glm::dot(normal, ray.direction) > 0) normal = -normal;
-                const Vec3 from = ray.origin + hit.distance * ray.direction + 1e-4f * normal;
-                Ray shadow;
-                shadow.origin = from;
-                shadow.direction = Vec3(0, 1, 0);
-                if (const std::vector<EmissiveTriangle>& lamps = world.lights.triangles; !lamps.empty()) {
-                    const EmissiveTriangle& lamp = lamps[std::min(
-                        static_cast<size_t>(uniform() * static_cast<float>(lamps.size())), lamps.size() - 1)];
-                    const float root = std::sqrt(uniform()), along = uniform();
-                    const Vec3 to_lamp = lamp.p0 + root * (1 - along) * lamp.edge1 + root * along * lamp.edge2 - from;
-                    shadow.t_max = 0.9999f * glm::length(to_lamp);
-                    shadow.direction = glm::normalize(to_lamp);
-                }
-                sink += world.accel->transmittance(shadow).x;
-                const float a = uniform();
-                ray = {from, OrthonormalFrame::from_normal(normal).world_from_local(
-                                 sample_cosine_hemisphere({a, uniform()}))};
-            }
-        }
-        rates.push_back(side * side / (cpu_seconds() - start));
-    }
-    // Looked at, so that the work is not left out.
-    return sink >= 0 ? median(rates) : 0;
-}
-
 const LoadedScene* load(const std::string& name, const std::string& file) {
     return name == "terrain" ? loaded_scene(terrain_file().string()) : loaded_scene(file);
 }
@@ -192,13 +130,13 @@ nlohmann::json measure_scene(const std::string& name, const LoadedScene& scene) 
         std::vector<double> times;
         for (const Picture& each : pictures[k])
             times.push_back(each.cpu_s);
-        return median(times);
+        return percentile(times, 0.5);
     };
     const auto product_of = [&](size_t k) { return relative_mse(pictures[k]) * cpu_of(k); };
 
     nlohmann::json out;
     const double paths = static_cast<double>(side) * side * spp;
-    const double limit = limit_paths_per_s(scene), usual = product_of(0);
+    const double limit = limit_paths_per_s(*scene.world, view_of(scene, Vec2u(side)), max_depth), usual = product_of(0);
     out["limit_paths_per_s"] = limit;
     out["paths_per_s_without_roulette"] = paths / cpu_of(4);
     fmt::print(

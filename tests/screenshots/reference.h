@@ -10,10 +10,13 @@ namespace candela::test {
 
 inline constexpr int reference_renders = 64;
 
-// Per pixel and channel, of display values in [0,1]: the mean over reference_renders renders of different seeds and the
-// variance of a single one (the sample variance, over n − 1). In the file the mean stands above the variance.
+// Of display values in [0,1], per channel, over reference_renders renders of different seeds: the mean of each pixel,
+// the variance of a single render (the sample variance, over n − 1), and that of the mean over each block of 8×8
+// pixels: neighbours that share paths have noise in common. In the file they stand below each other, the blocks to the
+// left.
 struct Reference {
     ImageRgb32f mean, variance;
+    ImageRgb32f block_variance;  // a pixel for each block
 };
 
 Reference make_reference(const std::vector<ImageRgba8>& renders);
@@ -28,7 +31,7 @@ struct Deviation {
     double mean_square_z = 0;           // of all pixels and channels
     double mean_square_z_error = 0;     // its standard error
     double expected_mean_square_z = 0;  // of normal noise: Student's t has (n − 1) / (n − 3)
-    double worst_block_z = 0;           // largest |Σ z| / √count over blocks of 8×8 pixels
+    double worst_block_z = 0;           // largest |z| of the mean over a block
     int worst_x = 0, worst_y = 0;       // its top left pixel
 
     // worst_block_z of a few hundred blocks stays below 5 but for one time in some thousands.
