@@ -22,7 +22,7 @@ struct Outcome {
 inline Outcome run(const std::string& arguments, const std::string& before = "",
                    const std::string& configuration = "/dev/null") {
     Outcome out;
-    const std::string program = "XDG_CONFIG_HOME=" + configuration + " " + CANDELA_PROGRAM;
+    const std::string program = "env XDG_CONFIG_HOME=" + configuration + " " + CANDELA_PROGRAM;
     FILE* pipe = popen((before + program + " " + arguments + " 2>&1 </dev/null").c_str(), "r");
     std::array<char, 4096> buffer{};
     while (const size_t n = fread(buffer.data(), 1, buffer.size(), pipe))
