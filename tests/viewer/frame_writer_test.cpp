@@ -66,13 +66,13 @@ class Sequence : public ViewerTest {
 };
 
 TEST_F(Sequence, ATurnBeginsWithTheViewThatIsShown) {
-    start(options_for((std::filesystem::current_path() / "assets/cornell_box.glb").string(), 4));
+    start(options_for((std::filesystem::current_path() / "assets/cornell_box.glb").string(), 1));
     drag(MouseButton::left, {100, 60}, {120, 60});
     finish();
     now_s_ += 10;
     const ImageRgba8 shown = picture();
-    EXPECT_EQ(write({SequenceKind::turntable, 3, 24, 4}),
-              "wrote 3 pictures: candela-cornell_box-turn-001_0000.png to candela-cornell_box-turn-001_0002.png");
+    EXPECT_EQ(write({SequenceKind::turntable, 2, 24, 1}),
+              "wrote 2 pictures: candela-cornell_box-turn-001_0000.png to candela-cornell_box-turn-001_0001.png");
     const ImageRgba8 first = read("candela-cornell_box-turn-001_0000.png");
     ASSERT_EQ(first.width(), shown.width());
     // The panels lie over the window's picture, at its foot.
