@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // candela_denoising [--references DIR] [SPP [WIDTH [SCENE]]]: how far the denoised preview is from a converged picture,
-// beside what it is made from, as a Markdown table. Scenes that are absent are left out. References of 2048 samples
-// per pixel are made, or taken from DIR if they are there.
+// beside what it is made from, with each path alone and with shared ones, as a Markdown table. Scenes that are absent
+// are left out. References of 2048 samples per pixel are made, or taken from DIR if they are there.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -43,13 +43,14 @@ struct Rendered {
     ImageRgba32f image;
 };
 
-Rendered render(const RenderJob& job, uint32_t spp, uint32_t seed) {
+Rendered render(const RenderJob& job, uint32_t spp, uint32_t seed, bool reuse_paths) {
     SessionOptions session_options;
     session_options.publish_frames = false;
     RenderSession session(session_options);
     RenderRequest request = job.request;
     request.max_spp = spp;
     request.settings.seed = seed;
+    request.settings.reuse_paths = reuse_paths;
     session.submit(request);
     session.wait_until_done();
     return {session.snapshot_film(), session.latest()->image};
@@ -72,28 +73,32 @@ void print_row(const Case& each, uint32_t spp, uint32_t width, const std::string
     if (!stored.empty() && std::filesystem::exists(stored, error)) {
         reference = read_linear(stored);
     } else {
-        reference = render(job, 2048, 1000).image;
+        reference = render(job, 2048, 1000, true).image;
         if (!stored.empty()) write_exr(stored, reference, false, {});
     }
 
-    const Rendered noisy = render(job, spp, 0);
-    const auto start = std::chrono::steady_clock::now();
-    Guides guides(job.request.view.extent);
-    add_guides(*job.world, job.request.view, job.request.settings, std::min(spp, 16u), guides);
-    const auto guided = std::chrono::steady_clock::now();
-    const ImageRgba32f denoised = denoise(noisy.film, guides);
-    const auto end = std::chrono::steady_clock::now();
-    if (!references.empty()) {
-        write_exr(fmt::format("{}/{}-{}-noisy.exr", references, each.name, width), noisy.image, false, {});
-        write_exr(fmt::format("{}/{}-{}-denoised.exr", references, each.name, width), denoised, false, {});
+    for (const bool shared : {false, true}) {
+        const char* const how = shared ? "shared" : "alone";
+        const Rendered noisy = render(job, spp, 0, shared);
+        const auto start = std::chrono::steady_clock::now();
+        Guides guides(job.request.view.extent);
+        add_guides(*job.world, job.request.view, job.request.settings, std::min(spp, 16u), guides);
+        const auto guided = std::chrono::steady_clock::now();
+        const ImageRgba32f denoised = denoise(noisy.film, guides);
+        const auto end = std::chrono::steady_clock::now();
+        if (!references.empty()) {
+            write_exr(fmt::format("{}/{}-{}-{}-noisy.exr", references, each.name, width, how), noisy.image, false, {});
+            write_exr(fmt::format("{}/{}-{}-{}-denoised.exr", references, each.name, width, how), denoised, false, {});
+        }
+        const ImageDifference before = compare_images(noisy.image, reference),
+                              after = compare_images(denoised, reference);
+        fmt::print("| {}, {} | {:.4g} | {:.4g} | {:.1f} | {:.3f} | {:.3f} | {:+.1f} % | {:.0f} + {:.0f} ms |\n",
+                   each.name, how, before.rel_mse, after.rel_mse, before.rel_mse / after.rel_mse, before.flip,
+                   after.flip, 100 * after.signed_mean / std::max(before.rmse, 1e-9),
+                   std::chrono::duration<double, std::milli>(guided - start).count(),
+                   std::chrono::duration<double, std::milli>(end - guided).count());
+        std::fflush(stdout);
     }
-    const ImageDifference before = compare_images(noisy.image, reference), after = compare_images(denoised, reference);
-    fmt::print("| {} | {:.4g} | {:.4g} | {:.1f} | {:.3f} | {:.3f} | {:+.1f} % | {:.0f} + {:.0f} ms |\n", each.name,
-               before.rel_mse, after.rel_mse, before.rel_mse / after.rel_mse, before.flip, after.flip,
-               100 * after.signed_mean / std::max(before.rmse, 1e-9),
-               std::chrono::duration<double, std::milli>(guided - start).count(),
-               std::chrono::duration<double, std::milli>(end - guided).count());
-    std::fflush(stdout);
 }
 
 }  // namespace

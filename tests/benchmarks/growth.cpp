@@ -90,6 +90,22 @@ Case lights(uint32_t count) {
     return {fmt::format("{} lamps", count), test::build(std::move(scene))};
 }
 
+// The same floor under points of light, which rays cannot meet: what choosing among them costs by itself.
+Case points(uint32_t count) {
+    Scene scene;
+    test::add_object(scene, square(0), test::add_lambert(scene, Vec3(0.6f)));
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> at(-reach_m, reach_m), height_m(1, 4);
+    PunctualLight light;
+    light.intensity = 1000.0f / static_cast<float>(count);
+    scene.lights.push_back(light);
+    for (uint32_t i = 0; i < count; ++i) {
+        scene.light_instances.push_back(
+            {{0}, {0}, glm::translate(Mat4(1), Vec3(at(random), height_m(random), at(random)))});
+    }
+    return {fmt::format("{} points of light", count), test::build(std::move(scene))};
+}
+
 // Hills of n × n quads under a sky.
 Case triangles(uint32_t n) {
     Scene scene;
@@ -218,7 +234,10 @@ int run(int argc, char** argv) {
     fmt::print(
         "| scene | µs per path | against the first | µs of the accelerator alone | against the first |\n"
         "| --- | --- | --- | --- | --- |\n");
-    if (wanted("lights")) print_growth({lights(1000), lights(10000), lights(100000)});
+    if (wanted("lights")) {
+        print_growth({lights(1000), lights(10000), lights(100000)});
+        print_growth({points(1000), points(10000), points(100000)});
+    }
     if (wanted("triangles")) print_growth({triangles(224), triangles(708), triangles(2237)});
     if (wanted("textures")) print_growth({textures(1), textures(20), textures(200)});
     if (wanted("threads")) print_threads();
