@@ -305,6 +305,15 @@ void check_viewer_options(const RenderOptions& options) {
     if (!options.stats_file.empty() && options.stats_file != "-") check_output(options.stats_file);
 }
 
+// In the words of the other messages: "--scene x: is no value that it takes".
+std::string words_of(const CLI::ParseError& error) {
+    const std::string text = error.what(), head = "Could not convert: ", between = " = ";
+    const size_t at = text.find(between);
+    if (!text.starts_with(head) || at == std::string::npos) return text;
+    return text.substr(head.size(), at - head.size()) + " " + text.substr(at + between.size()) +
+           ": is no value that it takes";
+}
+
 // The words without some options that take a value, and without some that take none.
 std::vector<std::string> without(const std::vector<std::string>& words, const std::vector<std::string>& options,
                                  const std::vector<std::string>& flags) {
@@ -421,6 +430,7 @@ ExitStatus dispatch(int argc, char** argv) {
         ->check(CLI::Range(1u, 100000u))
         ->type_name("N");
     render_command->add_option("--fps", render.fps, "pictures a second of the animation (30)")
+        ->needs("--frames")
         ->check(CLI::Range(1e-3, 1e6))
         ->type_name("N");
 
@@ -461,7 +471,7 @@ ExitStatus dispatch(int argc, char** argv) {
             app.exit(error);
             return ExitStatus::done;
         }
-        throw usage(std::string(error.what()) + "; see candela --help");
+        throw usage(words_of(error) + "; see candela --help");
     }
     if (*info_command) return run_info(info);
     if (*compare_command) return run_compare(compare);
@@ -501,7 +511,7 @@ RenderOptions parse_view_options(const std::vector<std::string>& words) {
     try {
         app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
     } catch (const CLI::ParseError& error) {
-        throw usage(error.what());
+        throw usage(words_of(error));
     }
     for (const std::string& word : words)
         options.command += (options.command.empty() ? "" : " ") + word;

@@ -237,6 +237,10 @@ ExitStatus run_render(const RenderOptions& options) {
         if (!InterruptGuard::interrupted()) ++written;
     }
     pictures.write_record(job, written);
+    if (InterruptGuard::interrupted()) {
+        fmt::print(stderr, "candela: interrupted after {} of {} pictures; --frames {}:{} goes on\n", written,
+                   last - first + 1, first + written, last);
+    }
     return InterruptGuard::interrupted() ? ExitStatus::interrupted : ExitStatus::done;
 }
 

@@ -87,6 +87,10 @@ TEST_F(AnimationCommand, WrongUsageIsNamed) {
     EXPECT_EQ(run(command("a.exr", "--frames -1:2")).status, 2);
     EXPECT_EQ(run(command("a.exr", "--frames 0:2 --at 1")).status, 2);
     EXPECT_EQ(run(command("a.exr", "--at -1")).status, 2);
+    EXPECT_EQ(run(command("a.exr", "--fps 12")).status, 2) << "of which pictures?";
+    const Outcome scene = run(command("a.exr", "--scene two"));
+    EXPECT_EQ(scene.status, 2);
+    EXPECT_NE(scene.text.find("--scene two: is no value that it takes"), std::string::npos) << scene.text;
     EXPECT_EQ(run("render -o " + file("a.exr") + " --at 1 --quiet").status, 2) << "the Cornell box has no animation";
     EXPECT_FALSE(std::filesystem::exists(folder_ / "a.exr"));
 }
@@ -113,10 +117,11 @@ TEST_F(AnimationCommand, FramesAreNumberedPicturesOfTheirTimes) {
 TEST_F(AnimationCommand, InterruptedFramesKeepWhatIsDone) {
     const Outcome outcome =
         run(command("a.exr",
-                    "--frames 0:9999 & pid=$!; for i in $(seq 200); do "
+                    "--frames 0:9999 2>&1 & pid=$!; for i in $(seq 200); do "
                     "[ -e " +
                         file("a_0002.exr") + " ] && break; sleep 0.05; done; kill -INT $pid; wait $pid"));
     EXPECT_EQ(outcome.status, 130) << outcome.text;
+    EXPECT_NE(outcome.text.find(" of 10000 pictures; --frames "), std::string::npos) << outcome.text;
     EXPECT_TRUE(std::filesystem::exists(folder_ / "a_0001.exr"));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "a_9999.exr"));
     for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
