@@ -307,7 +307,8 @@ void check_viewer_options(const RenderOptions& options) {
 
 // In the words of the other messages: "--scene x: is no value that it takes".
 std::string words_of(const CLI::ParseError& error) {
-    const std::string text = error.what(), head = "Could not convert: ", between = " = ";
+    const std::string_view head = "Could not convert: ", between = " = ";
+    std::string text = error.what();
     const size_t at = text.find(between);
     if (!text.starts_with(head) || at == std::string::npos) return text;
     return text.substr(head.size(), at - head.size()) + " " + text.substr(at + between.size()) +
