@@ -219,10 +219,10 @@ class ManyPrimitives : public GltfTest {
     static constexpr int count = 40;
     // Each with positions of its own, so that values of one can be broken.
     static Document document(const std::set<int>& with_strange_normals, const std::set<int>& with_wrong_indices,
-                             int first_large = 0, bool last_is_largest = false) {
+                             int first_large = 0, size_t corners_each = 60'000, bool last_is_largest = false) {
         Document document;
         // The first so many are the same triangle again and again, and take longer than the others.
-        std::vector<uint16_t> corners(24'000);
+        std::vector<uint16_t> corners(corners_each);
         for (size_t i = 0; i < corners.size(); ++i)
             corners[i] = static_cast<uint16_t>(i % 3);
         const int again = document.add_accessor(corners, "SCALAR", u16);
@@ -278,7 +278,7 @@ TEST_F(ManyPrimitives, FailAtTheFirstThatIsBroken) {
 // One after the other need less at a time, and what several could not get must not be missing then. Nor must be there
 // what is there by chance: where the last is read before those that go first, it finds more room than after them.
 TEST_F(ManyPrimitives, WhereMemoryRunsShortDependsOnTheFileAlone) {
-    for (Document source : {document({}, {}, count), document({}, {}, count / 4, true)}) {
+    for (Document source : {document({}, {}, count, 24'000), document({}, {}, count / 4, 60'000, true)}) {
         source.finish("data.bin");
         write("data.bin", {source.bytes.begin(), source.bytes.end()});
         const std::filesystem::path file = write("scene.gltf", source.json.dump());
