@@ -238,8 +238,9 @@ ExitStatus run_render(const RenderOptions& options) {
     }
     pictures.write_record(job, written);
     if (InterruptGuard::interrupted()) {
-        fmt::print(stderr, "candela: interrupted after {} of {} pictures; --frames {}:{} goes on\n", written,
-                   last - first + 1, first + written, last);
+        // A turn has no range of its own to go on with.
+        const std::string rest = options.frames ? fmt::format("; --frames {}:{} goes on", first + written, last) : "";
+        fmt::print(stderr, "candela: interrupted after {} of {} pictures{}\n", written, last - first + 1, rest);
     }
     return InterruptGuard::interrupted() ? ExitStatus::interrupted : ExitStatus::done;
 }

@@ -104,6 +104,7 @@ void Desktop::remember(const Viewer& viewer, Vec2u window_extent) {
     // Another window may have written since. What is wrong with the file was said when it was read first.
     std::string warning;
     RememberedSettings out = with_changes(read_settings(options_.settings_file, warning), before_, now);
+    if (!warning.empty()) keep_broken(options_.settings_file);
     for (const std::string& scene : opened_)
         add_recent(out.recent, scene);
     try {

@@ -82,6 +82,10 @@ RememberedSettings settings_from(const json& document) {
     return out;
 }
 
+std::filesystem::path broken_path(const std::filesystem::path& path) {
+    return path.string() + ".broken";
+}
+
 bool is_utf8(const std::string& text) {
     try {
         return !json(text).dump().empty();
@@ -122,9 +126,16 @@ RememberedSettings read_settings(const std::filesystem::path& path, std::string&
         if (document.is_discarded()) throw Broken{"it is no JSON"};
         return settings_from(document);
     } catch (const Broken& broken) {
-        warning = fmt::format("{}: {}; what it remembers is left out", path.string(), broken.why);
+        warning =
+            fmt::format("{}: {}; what it remembers is left out; mend it before this window closes, or find it as {}",
+                        path.string(), broken.why, broken_path(path).filename().string());
         return {};
     }
+}
+
+void keep_broken(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::rename(path, broken_path(path), ignored);
 }
 
 void write_settings(const std::filesystem::path& path, const RememberedSettings& settings) {

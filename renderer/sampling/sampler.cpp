@@ -49,6 +49,8 @@ struct Point {
     return reverse_bits(laine_karras(reverse_bits(index), seed));
 }
 
+static_assert(joint_pairs == 1 + joint_orders.size());
+
 constexpr bool is_joint(uint32_t dimension) {
     return dimension < 2 * joint_pairs;
 }
@@ -66,7 +68,7 @@ constexpr bool is_joint(uint32_t dimension) {
 
 // The orders of samplers of which some are in the first pairs; most have the same index.
 void find_order(PointBatch& batch, size_t count, uint32_t offset) {
-    uint32_t last_index = 0, last_dimension = 0, last = joint_order(0, 0);
+    uint32_t last_index = 0, last_dimension = 0, last = 0;
     for (size_t i = 0; i < count; ++i) {
         const uint32_t dimension = batch.dimension[i] + offset;
         const uint32_t index = batch.index[i];

@@ -115,11 +115,15 @@ TEST_F(AnimationCommand, FramesAreNumberedPicturesOfTheirTimes) {
 }
 
 TEST_F(AnimationCommand, InterruptedFramesKeepWhatIsDone) {
-    const Outcome outcome =
-        run(command("a.exr",
-                    "--frames 0:9999 2>&1 & pid=$!; for i in $(seq 200); do "
-                    "[ -e " +
-                        file("a_0002.exr") + " ] && break; sleep 0.05; done; kill -INT $pid; wait $pid"));
+    const auto interrupted = [&](const std::string& name, const std::string& options) {
+        return run(command(name + ".exr", options + " 2>&1 & pid=$!; for i in $(seq 200); do [ -e " +
+                                              file(name + "_0002.exr") +
+                                              " ] && break; sleep 0.05; done; kill -INT $pid; wait $pid"));
+    };
+    const Outcome turn = interrupted("t", "--turntable 10000");
+    EXPECT_EQ(turn.status, 130) << turn.text;
+    EXPECT_NE(turn.text.find(" of 10000 pictures\n"), std::string::npos) << "no --frames goes on: " << turn.text;
+    const Outcome outcome = interrupted("a", "--frames 0:9999");
     EXPECT_EQ(outcome.status, 130) << outcome.text;
     EXPECT_NE(outcome.text.find(" of 10000 pictures; --frames "), std::string::npos) << outcome.text;
     EXPECT_TRUE(std::filesystem::exists(folder_ / "a_0001.exr"));

@@ -273,6 +273,14 @@ TEST_F(Habits, WhatIsOpenedIsRememberedAndOffered) {
     EXPECT_TRUE(after.panels);
     EXPECT_EQ(after.window, Vec2u(300, 200));
     EXPECT_EQ(after.style.theme, Theme::light) << "what was not touched here stays";
+
+    // What stands there broken may be somebody's work.
+    std::ofstream(settings) << R"({"theme": )";
+    desktop.remember(*viewer_, {320, 200});
+    EXPECT_EQ(read_settings(settings, warning).window, Vec2u(320, 200));
+    EXPECT_EQ(warning, "");
+    read_settings(settings.string() + ".broken", warning);
+    EXPECT_NE(warning, "");
 }
 
 TEST_F(Habits, AWatchedSceneAndItsFilesAreSeenToChange) {

@@ -65,6 +65,9 @@ TEST_F(Remembered, ABrokenFileIsOneWarningAndDefaults) {
         EXPECT_NE(warning_.find("settings.json: "), std::string::npos) << text << ": " << warning_;
         EXPECT_EQ(warning_.find('\n'), std::string::npos) << warning_;
     }
+    keep_broken(file());
+    EXPECT_FALSE(std::filesystem::exists(file()));
+    EXPECT_TRUE(std::filesystem::exists(file().string() + ".broken"));
     put(std::string(1 << 20, ' ') + "{}");
     EXPECT_TRUE(words_of(read()).empty());
     EXPECT_NE(warning_, "");
