@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <chrono>
 
 #include "app/exit_status.h"
 #include "app/pose_choice.h"
+#include "app/stopwatch.h"
 #include "renderer/image/codec.h"
 #include "renderer/io/load_gltf.h"
 #include "renderer/scene/without_pictures.h"
@@ -15,12 +15,6 @@
 namespace candela {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 CommandError usage(const std::string& line) {
     return {ExitStatus::wrong_usage, line};

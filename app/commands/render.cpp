@@ -2,7 +2,6 @@
 // candela render: a scene to a file, without a display.
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 
 #include "app/clock_text.h"
@@ -14,14 +13,13 @@
 #include "app/progress_bar.h"
 #include "app/render_job.h"
 #include "app/statistics_file.h"
+#include "app/stopwatch.h"
 #include "app/viewer/view_control.h"
 #include "renderer/integrator/aov.h"
 
 namespace candela {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 void check_options(const RenderOptions& options) {
     const std::string extension = extension_of(options.output);
@@ -146,7 +144,7 @@ class Pictures {
 };
 
 void Pictures::render(const RenderJob& job, const std::string& path, const std::string& step, bool complete) {
-    const double before_render = std::chrono::duration<double>(Clock::now() - start_).count();
+    const double before_render = seconds_since(start_);
     session_.submit(job.request);
     while (!session_.wait_until_done(0.05)) {
         if (InterruptGuard::interrupted()) session_.stop();
@@ -174,7 +172,7 @@ void Pictures::render(const RenderJob& job, const std::string& path, const std::
     RenderOptions to = options_;
     to.output = path;
     write_picture(to, job, *frame_, session_);
-    write_seconds_ += std::chrono::duration<double>(Clock::now() - write_start).count();
+    write_seconds_ += seconds_since(write_start);
     const FilmStatistics& film = frame_->statistics;
     if (film.non_finite > 0) {
         fmt::print(stderr, "candela: warning: {} samples were not finite and do not count\n", film.non_finite);

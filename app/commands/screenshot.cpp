@@ -11,17 +11,12 @@
 #include "app/picture_file.h"
 #include "app/progress_bar.h"
 #include "app/statistics_file.h"
+#include "app/stopwatch.h"
 #include "app/viewer/replay.h"
 
 namespace candela {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 void check_screenshot(const RenderOptions& options) {
     if (extension_of(options.output) != ".png") {

@@ -6,6 +6,7 @@
 #include "app/interrupt.h"
 #include "app/progress_bar.h"
 #include "app/render_job.h"
+#include "app/stopwatch.h"
 #include "app/validation/report.h"
 #include "renderer/image/atomic_file.h"
 #include "renderer/image/codec.h"
@@ -65,7 +66,7 @@ ExitStatus run_validate(const ValidateOptions& options) {
     size_t total = 0;
     for (const ValidationCase& c : cases)
         total += c.techniques.size();
-    const auto start = std::chrono::steady_clock::now();
+    const Clock::time_point start = Clock::now();
     std::vector<ValidationResult> results;
     if (!options.json) fmt::print("{}", table_header());
     for (const ValidationCase& c : cases) {
@@ -88,7 +89,7 @@ ExitStatus run_validate(const ValidateOptions& options) {
     bar.clear();
 
     // Report.
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = seconds_since(start);
     const std::string json = validation_json(results, curves, seconds);
     fmt::print("{}", options.json ? json : table_summary(results, seconds));
     if (!options.output.empty()) {

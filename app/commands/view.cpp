@@ -2,26 +2,15 @@
 // candela view: the window and its loop.
 #include <fmt/format.h>
 
-#include <chrono>
-
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/statistics_file.h"
+#include "app/stopwatch.h"
 #include "app/viewer/desktop.h"
 #include "app/viewer/session_recorder.h"
 #include "app/viewer/window.h"
 
 namespace candela {
-
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-}  // namespace
 
 ExitStatus run_view(const RenderOptions& requested, const RememberedSettings& remembered) {
     RenderOptions options = requested;

@@ -7,7 +7,6 @@
 #include <random>
 #include <thread>
 
-#include "renderer/session/schedule.h"
 #include "tests/benchmarks/percentile.h"
 #include "tests/benchmarks/shared_scenes.h"
 #include "tests/benchmarks/throughput.h"
@@ -46,22 +45,8 @@ View view_of_square() {
 
 // CPU seconds of one picture.
 double trace(const World& world, uint32_t seed) {
-    const View view = view_of_square();
-    const IntegratorSettings settings = settings_of(seed);
-    std::vector<PixelSample> wanted;
-    std::vector<RadianceSample> got(max_batch);
     RayCounts rays;
-    Schedule schedule(view.extent, 1, settings.may_reuse_paths());
-    const double start = cpu_seconds();
-    while (schedule.complete_samples() < spp) {
-        const Slice pass = schedule.next(std::numeric_limits<uint32_t>::max());
-        for (uint32_t t = 0; t < pass.size(); ++t) {
-            schedule.list(pass, pass.tile(t), wanted);
-            trace_batch(world, view, settings, wanted, got, rays);
-            schedule.note(pass.tile(t), wanted, got);
-        }
-    }
-    return cpu_seconds() - start;
+    return trace_picture(world, view_of_square(), settings_of(seed), spp, rays, [](const auto&, const auto&) {});
 }
 
 Primitive square(float y) {

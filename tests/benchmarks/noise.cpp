@@ -6,10 +6,8 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <limits>
 #include <nlohmann/json.hpp>
 
-#include "renderer/session/schedule.h"
 #include "tests/benchmarks/made_scenes.h"
 #include "tests/benchmarks/percentile.h"
 #include "tests/benchmarks/shared_scenes.h"
@@ -65,23 +63,13 @@ struct Picture {
 Picture render(const LoadedScene& scene, const IntegratorSettings& settings, uint32_t samples) {
     Picture out;
     const View view = view_of(scene, Vec2u(side));
-    std::vector<PixelSample> wanted;
-    std::vector<RadianceSample> got(max_batch);
-    Schedule schedule(view.extent, 1, settings.may_reuse_paths());
-    const double start = cpu_seconds();
-    while (schedule.complete_samples() < samples) {
-        const Slice pass = schedule.next(std::numeric_limits<uint32_t>::max());
-        for (uint32_t t = 0; t < pass.size(); ++t) {
-            schedule.list(pass, pass.tile(t), wanted);
-            trace_batch(*scene.world, view, settings, wanted, got, out.rays);
-            schedule.note(pass.tile(t), wanted, got);
-            for (size_t i = 0; i < wanted.size(); ++i) {
-                out.luminance[size_t{wanted[i].y} * side + wanted[i].x] +=
-                    luminance(got[i].radiance) / static_cast<float>(samples);
-            }
-        }
-    }
-    out.cpu_s = cpu_seconds() - start;
+    out.cpu_s = trace_picture(*scene.world, view, settings, samples, out.rays,
+                              [&](const std::vector<PixelSample>& wanted, const std::vector<RadianceSample>& got) {
+                                  for (size_t i = 0; i < wanted.size(); ++i) {
+                                      out.luminance[size_t{wanted[i].y} * side + wanted[i].x] +=
+                                          luminance(got[i].radiance) / static_cast<float>(samples);
+                                  }
+                              });
     return out;
 }
 
