@@ -243,6 +243,7 @@ class Viewer {
     WindowResized size_;
     Vec2 cursor_{0};
     DragMode drag_ = DragMode::none;
+    bool is_pressed_ = false;  // a button, over the picture
     MouseButton drag_button_ = MouseButton::left;
     Vec3 drag_anchor_{0};
     double last_click_s_ = -1;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "app/viewer/viewer.h"
 #include "renderer/integrator/aov.h"
@@ -86,7 +87,8 @@ void Viewer::set_view(const OrbitView& view) {
 
 void Viewer::handle_mouse_press(const MousePressed& event) {
     if (!event.pressed) {
-        if (event.button != drag_button_) return;
+        // A button that went down over a panel is none of the picture's.
+        if (event.button != drag_button_ || !std::exchange(is_pressed_, false)) return;
         const bool clicked =
             (drag_ == DragMode::orbit || drag_ == DragMode::look) && glm::distance(press_, cursor_) < click_points;
         drag_ = DragMode::none;
@@ -98,6 +100,7 @@ void Viewer::handle_mouse_press(const MousePressed& event) {
     give_keyboard(false);
     if (!model_.has_scene() || drag_ != DragMode::none) return;
     drag_button_ = event.button;
+    is_pressed_ = true;
     press_ = cursor_;
     view_before_drag_ = model_.view;
     const Modifiers& modifiers = event.modifiers;

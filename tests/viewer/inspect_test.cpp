@@ -123,9 +123,9 @@ TEST_F(ViewerTest, AnEnvironmentIsChosenAmongThoseThatLieNear) {
 TEST_F(ViewerTest, MovesOfTheCameraAreUndoneToo) {
     start(options_for("assets/cornell_box.glb"));
     const OrbitView first = model().view;
-    drag(MouseButton::left, {60, 20}, {80, 30});
-    const OrbitView second = model().view;
     drag(MouseButton::middle, {60, 20}, {80, 30});
+    const OrbitView second = model().view;
+    drag(MouseButton::left, {60, 20}, {80, 30});
     EXPECT_NE(second, first);
     press(Key::z, ctrl);
     EXPECT_EQ(model().view, second);
@@ -133,6 +133,17 @@ TEST_F(ViewerTest, MovesOfTheCameraAreUndoneToo) {
     EXPECT_EQ(model().view, first);
     press(Key::z, ctrl);
     EXPECT_EQ(model().notice, "there is nothing to undo");
+    // A click on a panel, here on its margin, is no move of the camera.
+    press(Key::tab);
+    for (int i = 0; i < 3; ++i)
+        picture();
+    click({181, 19});
+    EXPECT_FALSE(model().inspection) << "the picture was clicked";
+    press(Key::tab);
+    for (int i = 0; i < 3; ++i)
+        picture();
+    press(Key::z, ctrl);
+    EXPECT_EQ(model().view, first);
     press(Key::z, ctrl_shift);
     EXPECT_EQ(model().view, second);
     // A new move ends what could be redone.
