@@ -76,6 +76,11 @@ void bound_next_window() {
     ImGui::SetNextWindowSizeConstraints({0, 0}, {std::max(display.x - 2 * unit(), 1.0f), std::max(height, 1.0f)});
 }
 
+PanelArea current_panel_area() {
+    const ImVec2 low = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    return {{low.x, low.y}, {low.x + size.x, low.y + size.y}};
+}
+
 std::optional<double> asked_error(const ViewerModel& model) {
     if (!model.options.until_error_percent) return std::nullopt;
     return *model.options.until_error_percent / 100;
@@ -182,8 +187,8 @@ bool draw_notice(const ViewerModel& model) {
     return dismissed;
 }
 
-void draw_statistics(const ViewerModel& model) {
-    if (!model.has_scene() || !has_room_beside_panels(model)) return;
+PanelArea draw_statistics(const ViewerModel& model) {
+    if (!model.has_scene() || !has_room_beside_panels(model)) return {};
     place({0.0f, 0.0f}, {unit(), unit()});
     bound_next_window();
     ImGui::Begin("statistics", nullptr, overlay_flags | ImGuiWindowFlags_NoInputs);
@@ -242,7 +247,9 @@ void draw_statistics(const ViewerModel& model) {
         ImGui::PopStyleColor();
     }
     ImGui::PopTextWrapPos();
+    const PanelArea now = current_panel_area();
     ImGui::End();
+    return now;
 }
 
 }  // namespace candela

@@ -13,6 +13,8 @@ bool is_tiny();
 bool has_room_beside_panels(const ViewerModel& model);
 // The next window leaves some of the picture to be seen, in however small a window of ours.
 void bound_next_window();
+// Of the current ImGui window.
+PanelArea current_panel_area();
 // The line at the foot: scene, samples, time, speed, error.
 void draw_status_line(const ViewerModel& model);
 // While a scene loads.
@@ -33,8 +35,12 @@ void draw_convergence(const ViewerModel& model);
 void draw_badge(const ViewerModel& model);
 // "relMSE 0.0123": the number of that measure over all pixels.
 std::string metric_words(ReferenceMetric metric, const ImageDifference& difference);
-// The pixel that was clicked at, and the path of its brightest sample in the picture.
-void draw_pixel_panel(const ViewerModel& model);
+// The pixel that was clicked at, beside an area that is taken; where it stood in the frame before, and stands now.
+PanelArea draw_pixel_panel(const ViewerModel& model, const PanelArea& taken, const PanelArea& before);
+// The first corner of the room, (1, 1) at the bottom right, where a panel of that size hides neither the pixel nor what
+// is taken; rather that than the pixel.
+Vec2 free_corner(const PanelArea& room, const Vec2& size, const PanelArea& pixel, const PanelArea& taken);
+// The path of that pixel's brightest sample in the picture.
 void draw_path(const ViewerModel& model);
 // The scene's tree, materials and lights, in the current window.
 void edit_section(ViewerModel& model, PanelEdits& edits);
@@ -48,7 +54,7 @@ std::optional<float> wipe_x(const ViewerModel& model);
 void draw_wipe(const ViewerModel& model);
 void draw_legend(const ViewerModel& model, bool beside_readings);
 void draw_help();
-void draw_statistics(const ViewerModel& model);
+PanelArea draw_statistics(const ViewerModel& model);
 // The exact values of a validation scene, marked in the picture; nothing for other scenes.
 void draw_validation(const ViewerModel& model, const std::vector<ValidationReading>& readings);
 // Bookmarks and views that were left: a section of the side panel.
@@ -60,7 +66,8 @@ void sequence_section(ViewerModel& model, PanelEdits& edits);
 // Opening files, and how the panels look: sections of the side panel.
 void open_section(const ViewerModel& model, PanelEdits& edits);
 void window_section(ViewerModel& model, PanelEdits& edits);
-// Camera, light, rendering, display and scene, at the right.
+// Camera, light, rendering, display and scene, at the right, and how wide that is in points.
 PanelEdits draw_side_panel(ViewerModel& model);
+float side_panel_width();
 
 }  // namespace candela

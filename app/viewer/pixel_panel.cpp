@@ -12,7 +12,8 @@ namespace {
 const ImU32 path_color = IM_COL32(232, 163, 61, 255), light_color = IM_COL32(110, 185, 235, 255),
             shadow_color = IM_COL32(0, 0, 0, 150);
 
-constexpr size_t most_rows = 12;
+// Of a path; and fewer say too little.
+constexpr size_t most_vertices = 12, least_vertices = 2;
 
 std::string number(float value) {
     return fmt::format("{:.3g}", value);
@@ -42,23 +43,27 @@ void row(const char* name, const std::string& value) {
     ImGui::TextUnformatted(value.c_str());
 }
 
-void pixel_rows(const ViewerModel& model, const Inspection& inspection) {
+// What there is room for: a small window has only the first rows.
+void pixel_rows(const ViewerModel& model, const Inspection& inspection, bool brief) {
     const Scene& scene = *model.job.world->scene;
     if (!ImGui::BeginTable("pixel", 2, ImGuiTableFlags_SizingFixedFit)) return;
     row("pixel", fmt::format("{}, {}", inspection.pixel.x, inspection.pixel.y));
     row("value", color_text(Vec3(inspection.value)));
-    if (inspection.error >= 0)
+    if (inspection.error >= 0) {
+        const std::string error = "±" + percent_text(static_cast<double>(inspection.error));
         row("error",
-            fmt::format("±{}, {:.0f} samples, {:.1f} rays each", percent_text(static_cast<double>(inspection.error)),
-                        inspection.samples, inspection.rays));
-    if (inspection.hit.hit) {
-        const FirstHit& hit = inspection.hit;
-        row("object", object_name(scene, hit.instance));
+            brief ? error
+                  : fmt::format("{}, {:.0f} samples, {:.1f} rays each", error, inspection.samples, inspection.rays));
+    }
+    const FirstHit& hit = inspection.hit;
+    row("object", hit.hit ? object_name(scene, hit.instance) : "the background");
+    if (hit.hit && !brief) {
         row("material", material_name(scene, hit.material));
         row("position", color_text(hit.position) + " m");
         row("distance, uv", fmt::format("{:.4g} m, {:.3f} {:.3f}", hit.depth, hit.uv.x, hit.uv.y));
         row("albedo", color_text(hit.albedo));
-        if (hit.material < scene.materials.size()) {
+        // The side panel has the factors for editing.
+        if (hit.material < scene.materials.size() && !model.show_panels) {
             const Material& material = scene.materials[hit.material];
             row("base colour", color_text(Vec3(material.base_color_factor)));
             row("metallic, roughness",
@@ -67,13 +72,11 @@ void pixel_rows(const ViewerModel& model, const Inspection& inspection) {
             if (material.transmits())
                 row("transmission, ior", fmt::format("{:.2f}, {:.3g}", material.transmission.factor, material.ior));
         }
-    } else {
-        row("object", "the background");
     }
     ImGui::EndTable();
 }
 
-void ledger_rows(const ViewerModel& model, const PixelLedger& ledger) {
+void ledger_rows(const ViewerModel& model, const PixelLedger& ledger, size_t most_rows) {
     const Scene& scene = *model.job.world->scene;
     const Ledger& path = ledger.path;
     ImGui::TextUnformatted(fmt::format("its brightest of {} samples: number {}, {:.3g}", ledger.samples,
@@ -165,24 +168,56 @@ void draw_path(const ViewerModel& model) {
     }
 }
 
-void draw_pixel_panel(const ViewerModel& model) {
-    if (!model.inspection || !model.has_scene()) return;
+Vec2 free_corner(const PanelArea& room, const Vec2& size, const PanelArea& pixel, const PanelArea& taken) {
+    Vec2 pivot(1, 1);
+    int least_hidden = 3;
+    for (const Vec2& each : {Vec2(1, 1), Vec2(1, 0), Vec2(0, 1), Vec2(0, 0)}) {
+        const Vec2 low = room.low + each * (room.high - room.low - size);
+        const PanelArea area{low, low + size};
+        const int hidden = (area.overlaps(pixel) ? 2 : 0) + (area.overlaps(taken) ? 1 : 0);
+        if (hidden >= least_hidden) continue;
+        least_hidden = hidden;
+        pivot = each;
+    }
+    return pivot;
+}
+
+PanelArea draw_pixel_panel(const ViewerModel& model, const PanelArea& taken, const PanelArea& before) {
+    if (!model.inspection || !model.has_scene()) return {};
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float unit = ImGui::GetFontSize();
-    const float right = model.show_panels ? std::min(20 * unit, display.x - 2 * unit) + 2 * unit : unit;
-    ImGui::SetNextWindowPos({display.x - right, display.y - 4.6f * unit}, ImGuiCond_Always, {1, 1});
+    const Vec2 low(unit, unit);
+    const Vec2 high(display.x - unit - (model.show_panels ? side_panel_width() + unit : 0), display.y - 4.6f * unit);
+    // Beside the side panel a small window has only the path.
+    if (!has_room_beside_panels(model) || high.x - low.x < 12 * unit) return {};
+
+    const Vec2 pixel =
+        (Vec2(model.inspection->pixel) + 0.5f) / Vec2(model.inspection->view.extent) * Vec2(display.x, display.y);
+    const Vec2 pivot = free_corner({low, high}, before.high - before.low, {pixel - unit, pixel + unit}, taken);
+    const Vec2 place = low + pivot * (high - low);
+    ImGui::SetNextWindowPos({place.x, place.y}, ImGuiCond_Always, {pivot.x, pivot.y});
     ImGui::Begin("Pixel", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize |
                      ImGuiWindowFlags_NoInputs);
-    pixel_rows(model, *model.inspection);
-    ImGui::Separator();
-    if (model.inspection->ledger) {
-        ledger_rows(model, *model.inspection->ledger);
-    } else {
-        ImGui::TextDisabled("looking for its brightest sample");
+
+    // Of the path as much as there is room for.
+    const bool brief = high.x - low.x < 46 * unit || is_tiny();
+    pixel_rows(model, *model.inspection, brief);
+    const float row_height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
+    const float rows_left = (high.y - low.y - ImGui::GetCursorPosY()) / row_height - 4;
+    const size_t most_rows = std::min(static_cast<size_t>(std::max(rows_left, 0.0f)), most_vertices);
+    if (!brief && most_rows >= least_vertices) {
+        ImGui::Separator();
+        if (model.inspection->ledger) {
+            ledger_rows(model, *model.inspection->ledger, most_rows);
+        } else {
+            ImGui::TextDisabled("looking for its brightest sample");
+        }
     }
+    const PanelArea now = current_panel_area();
     ImGui::End();
+    return now;
 }
 
 }  // namespace candela

@@ -179,12 +179,16 @@ void validation_section(PanelEdits& edits) {
 
 }  // namespace
 
+float side_panel_width() {
+    return std::min(20 * ImGui::GetFontSize(), ImGui::GetIO().DisplaySize.x - 2 * ImGui::GetFontSize());
+}
+
 PanelEdits draw_side_panel(ViewerModel& model) {
     PanelEdits edits;
     if (!model.has_scene()) return edits;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float unit = ImGui::GetFontSize();
-    const float width = std::min(20 * unit, display.x - 2 * unit);
+    const float width = side_panel_width();
     ImGui::SetNextWindowPos({display.x - width - unit, unit});
     const float height = !is_tiny() ? display.y - 4 * unit : (timeline_is_shown(model) ? 0.35f : 0.55f) * display.y;
     ImGui::SetNextWindowSizeConstraints({width, 0}, {width, height});

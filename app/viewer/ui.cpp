@@ -109,8 +109,10 @@ void Ui::handle(const InputEvent& event) {
         io.MouseWheel += scroll->steps.y;
     } else if (const auto* key = std::get_if<KeyPressed>(&event)) {
         const auto index = static_cast<size_t>(key->key);
-        key_down_[index] = key->pressed;
-        key_pressed_since_frame_[index] |= key->pressed;
+        // Tab goes from field to field only where there is one: else it is the key of the panels.
+        const bool pressed = key->pressed && (key->key != Key::tab || io.WantTextInput);
+        key_down_[index] = pressed;
+        key_pressed_since_frame_[index] |= pressed;
         io.KeyShift = key->modifiers.shift;
         io.KeyCtrl = key->modifiers.ctrl;
         io.KeyAlt = key->modifiers.alt;

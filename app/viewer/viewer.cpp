@@ -47,6 +47,8 @@ Viewer::Viewer(const RenderOptions& options, const GlContext& context, const Vie
     session_options.frame_seconds = 1e-3 * options.frame_time_ms;
     session_options.kept_bytes = options.limit_views_bytes;
     session_options.reproject = true;
+    // How long a view was rendered is chance.
+    if (viewer_options.steady_figures) session_options.keep_after_seconds = std::numeric_limits<double>::infinity();
     session_ = std::make_unique<RenderSession>(session_options);
     session_->show_maps(model_.map.shown);
     denoised_ = std::make_unique<DenoisedPreview>(*session_);
@@ -434,12 +436,14 @@ void Viewer::draw() {
         draw_status_line(model_);
         if (model_.loading) draw_loading_bar(model_);
         if (!model_.has_scene() && !model_.loading) draw_welcome(model_);
-        if (model_.show_statistics) draw_statistics(model_);
+        const PanelArea statistics = model_.show_statistics ? draw_statistics(model_) : PanelArea{};
         place_picture();
         draw_wipe(model_);
         draw_badge(model_);
         draw_path(model_);
-        draw_pixel_panel(model_);
+        const PanelArea before = std::exchange(pixel_panel_, draw_pixel_panel(model_, statistics, pixel_panel_));
+        // Of another size it may belong elsewhere.
+        if (before != pixel_panel_) redraws_ = std::max(redraws_, 1);
         if (model_.has_scene()) {
             const std::vector<ValidationReading> readings =
                 read_validation(model_.job.scene_path, *model_.job.world, model_.job.request.view, frame_);

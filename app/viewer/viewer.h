@@ -216,12 +216,15 @@ class Viewer {
     EditHistory history_;
     bool scene_dirty_ = false;  // materials or lights have to be compiled
     OrbitView view_before_drag_, view_before_flight_;
+    OrbitView scrolled_view_;  // by the wheel, at last_scroll_s_
+    double last_scroll_s_ = 0;
     Flight flight_;
     FrameWriter writer_;
     ViewerRequests requests_;
     ReferencePicture reference_;
     BackgroundTask<PixelLedger> search_;
     uint32_t searched_samples_ = 0;
+    PanelArea pixel_panel_;                   // in the frame before
     std::optional<Vec2u> wanted_inspection_;  // once there is a scene
     uint64_t search_epoch_ = 0;
     Vec2 press_{0};                       // where the last button went down

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double double_click_s = 0.4;
 constexpr float double_click_points = 6;
+constexpr double scroll_pause_s = 0.7;
 constexpr float dolly_per_step = 0.88f;
 constexpr float exposure_step_ev = 0.25f;
 constexpr float click_points = 2;  // a button that comes up as near was clicked
@@ -174,7 +175,14 @@ void Viewer::handle_scroll(float steps) {
     }
     const Vec2 uv = film_uv_of(cursor_);
     const Vec3 anchor = pick(uv).value_or(point_at_pivot_distance(model_.view, aspect(), uv));
+    // Steps that follow each other are undone as one.
+    const OrbitView before = model_.view;
     set_view(dolly(model_.view, anchor, std::pow(dolly_per_step, steps), aspect()));
+    const double now = now_s();
+    const bool goes_on = before == scrolled_view_ && now - last_scroll_s_ < scroll_pause_s;
+    if (!goes_on && model_.view != before) history_.add({model_.materials, model_.punctual_lights, before, false});
+    last_scroll_s_ = now;
+    scrolled_view_ = model_.view;
 }
 
 void Viewer::handle_key(const KeyPressed& event) {

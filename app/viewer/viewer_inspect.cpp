@@ -72,7 +72,7 @@ void Viewer::update_inspection() {
         if (found && model_.inspection && found->path.sample.x == model_.inspection->pixel.x &&
             found->path.sample.y == model_.inspection->pixel.y && search_epoch_ == model_.status.epoch) {
             model_.inspection->ledger = std::move(found);
-            redraws_ = std::max(redraws_, 1);
+            redraws_ = std::max(redraws_, 2);
         }
     }
     if (!model_.inspection || frame_ == nullptr || frame_->epoch != model_.status.epoch) return;

@@ -20,6 +20,16 @@
 
 namespace candela {
 
+// Where a panel stands, in points of the window; empty: nowhere.
+struct PanelArea {
+    Vec2 low{0}, high{0};
+
+    bool operator==(const PanelArea&) const = default;
+    bool overlaps(const PanelArea& other) const {
+        return low.x < other.high.x && other.low.x < high.x && low.y < other.high.y && other.low.y < high.y;
+    }
+};
+
 // The same view with other settings, to the right of the wipe; both have half of the cores.
 struct Comparison {
     bool shown = false;

@@ -2,6 +2,8 @@
 // Numbered pictures of a turn and of an animation, written beside the window.
 #include "app/viewer/frame_writer.h"
 
+#include <fstream>
+
 #include "app/frame_sequence.h"
 #include "renderer/image/codec.h"
 #include "tests/support/temporary_folder.h"

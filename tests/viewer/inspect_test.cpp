@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "app/viewer/environment_files.h"
+#include "app/viewer/panels.h"
 #include "renderer/integrator/ledger.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/viewer/viewer_fixture.h"
@@ -54,6 +55,36 @@ TEST_F(ViewerTest, AClickShowsThePixelAndReplaysItsBrightestSample) {
     press(Key::digit_7);
     finish();
     EXPECT_FALSE(model().inspection.has_value());
+}
+
+TEST(PixelPanel, ItHidesNeitherThePixelNorOtherPanels) {
+    const PanelArea room{{10, 10}, {910, 610}}, statistics{{10, 10}, {500, 300}};
+    const Vec2 size(300, 200);
+    const auto corner = [&](Vec2 pixel, const PanelArea& taken) {
+        return free_corner(room, size, {pixel - 15.0f, pixel + 15.0f}, taken);
+    };
+    EXPECT_EQ(corner({100, 100}, {}), Vec2(1, 1));
+    EXPECT_EQ(corner({700, 500}, {}), Vec2(1, 0));
+    EXPECT_EQ(corner({600, 400}, {}), Vec2(1, 0)) << "its edge would touch the pixel";
+    EXPECT_EQ(corner({500, 400}, {{600, 10}, {910, 610}}), Vec2(0, 1));
+    EXPECT_EQ(corner({700, 500}, {{600, 10}, {910, 610}}), Vec2(0, 1));
+    EXPECT_EQ(corner({200, 500}, {{600, 10}, {910, 610}}), Vec2(0, 0));
+    EXPECT_EQ(free_corner(room, {800, 400}, {{800, 500}, {830, 530}}, statistics), Vec2(1, 0))
+        << "rather the statistics are hidden than the pixel";
+}
+
+TEST_F(ViewerTest, TabThatIsHeldTypesNothing) {
+    start(options_for("assets/cornell_box.glb", 1));
+    viewer_->handle(KeyPressed{Key::tab, true, {}});
+    for (int i = 0; i < 6; ++i) {
+        now_s_ += 0.3;
+        picture();
+    }
+    viewer_->handle(KeyPressed{Key::tab, false, {}});
+    picture();
+    const float exposure_ev = model().display.tone.exposure_ev;
+    press(Key::e);
+    EXPECT_GT(model().display.tone.exposure_ev, exposure_ev) << "the panels took the key";
 }
 
 TEST_F(ViewerTest, EditsOfMaterialsKeepTheGeometryAndAreUndone) {
@@ -145,6 +176,29 @@ TEST_F(ViewerTest, MovesOfTheCameraAreUndoneToo) {
     press(Key::z, ctrl);
     EXPECT_EQ(model().view, first);
     press(Key::z, ctrl_shift);
+    EXPECT_EQ(model().view, second);
+    // A click on a panel is no move of the camera.
+    press(Key::tab);
+    picture();
+    click({100, 40});
+    press(Key::tab);
+    press(Key::z, ctrl);
+    EXPECT_EQ(model().view, first);
+    press(Key::z, ctrl_shift);
+    EXPECT_EQ(model().view, second);
+    // Nor are steps of the wheel moves each.
+    viewer_->handle(MouseMoved{{60, 20}});
+    for (int i = 0; i < 3; ++i) {
+        now_s_ += 0.1;
+        viewer_->handle(Scrolled{{0, 1}});
+    }
+    const OrbitView third = model().view;
+    now_s_ += 1;
+    viewer_->handle(Scrolled{{0, 1}});
+    EXPECT_NE(model().view, third);
+    press(Key::z, ctrl);
+    EXPECT_EQ(model().view, third);
+    press(Key::z, ctrl);
     EXPECT_EQ(model().view, second);
     // A new move ends what could be redone.
     drag(MouseButton::left, {60, 20}, {70, 30});

@@ -180,6 +180,30 @@ TEST(Recordings, StatisticsOfAnOrbitComeBackToTheBit) {
     EXPECT_EQ(seen.pixels(), replayed(path, 3).pixels());
 }
 
+// The threads beside the render's own are waited for too: of the preview, the search for the path, the other settings.
+TEST(Recordings, WhatIsMadeBesideThePictureComesBackToTheBit) {
+    const test::TemporaryFolder folder("candela recording");
+    for (const bool compares : {false, true}) {
+        const std::string path = (folder.path() / "a.rec").string();
+        RecordedSession session(path, {"assets/cornell_box.glb", "--spp", "4", "-t", "2"}, {420, 500});
+        session.press(Key::z);
+        if (compares) {
+            session.press(Key::b);
+        } else {
+            session.press(Key::d);
+            session.drag(MouseButton::left, {200, 420}, {206, 420});
+            session.round({MouseMoved{{200, 420}}});
+            session.round({MousePressed{MouseButton::left, true, {}}});
+            session.round({MousePressed{MouseButton::left, false, {}}});
+        }
+        const ImageRgba8 seen = session.finish();
+        EXPECT_EQ(session.viewer().model().denoised_spp.has_value(), !compares);
+        EXPECT_EQ(session.viewer().model().inspection.has_value(), !compares);
+        EXPECT_EQ(session.viewer().model().comparison.shown, compares);
+        EXPECT_EQ(seen.pixels(), replayed(path, 1).pixels());
+    }
+}
+
 TEST(Recordings, APlayedAnimationStopsAtTheSamePose) {
     const test::TemporaryFolder folder("candela recording");
     const std::string path = (folder.path() / "a.rec").string();
