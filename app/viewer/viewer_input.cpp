@@ -13,6 +13,7 @@ namespace candela {
 namespace {
 
 constexpr double double_click_s = 0.4;
+constexpr double never = -1;
 constexpr float double_click_points = 6;
 constexpr double scroll_pause_s = 0.7;
 constexpr float dolly_per_step = 0.88f;
@@ -90,8 +91,10 @@ void Viewer::handle_mouse_press(const MousePressed& event) {
     if (!event.pressed) {
         // A button that went down over a panel is none of the picture's.
         if (event.button != drag_button_ || !std::exchange(is_pressed_, false)) return;
-        const bool clicked =
-            (drag_ == DragMode::orbit || drag_ == DragMode::look) && glm::distance(press_, cursor_) < click_points;
+        const bool stayed = glm::distance(press_, cursor_) < click_points;
+        const bool clicked = (drag_ == DragMode::orbit || drag_ == DragMode::look) && stayed;
+        // Strokes that follow each other from the same place are no double-click.
+        if (!stayed) last_click_s_ = never;
         drag_ = DragMode::none;
         if (model_.view != view_before_drag_)
             history_.add({model_.materials, model_.punctual_lights, view_before_drag_, false});
@@ -123,7 +126,7 @@ void Viewer::handle_mouse_press(const MousePressed& event) {
         const double now = now_s();
         const bool twice =
             now - last_click_s_ < double_click_s && glm::distance(cursor_, last_click_) < double_click_points;
-        last_click_s_ = twice ? -1 : now;
+        last_click_s_ = twice ? never : now;
         last_click_ = cursor_;
         if (twice) {
             if (const std::optional<Vec3> point = pick(film_uv_of(cursor_))) set_view(recentre(model_.view, *point));

@@ -185,14 +185,15 @@ TEST(Recordings, WhatIsMadeBesideThePictureComesBackToTheBit) {
     const test::TemporaryFolder folder("candela recording");
     for (const bool compares : {false, true}) {
         const std::string path = (folder.path() / "a.rec").string();
-        RecordedSession session(path, {"assets/cornell_box.glb", "--spp", "4", "-t", "2"}, {420, 500});
+        RecordedSession session(path, {"assets/cornell_box.glb", "--spp", "2", "-t", "2"},
+                                compares ? Vec2u(240, 400) : Vec2u(320, 240));
         session.press(Key::z);
         if (compares) {
             session.press(Key::b);
         } else {
             session.press(Key::d);
-            session.drag(MouseButton::left, {200, 420}, {206, 420});
-            session.round({MouseMoved{{200, 420}}});
+            session.drag(MouseButton::left, {150, 190}, {156, 190});
+            session.round({MouseMoved{{150, 190}}});
             session.round({MousePressed{MouseButton::left, true, {}}});
             session.round({MousePressed{MouseButton::left, false, {}}});
         }

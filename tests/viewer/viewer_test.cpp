@@ -66,6 +66,16 @@ TEST_F(ViewerTest, ADoubleClickRecentresAndASlowOneDoesNot) {
     EXPECT_NEAR(seen.y, 0.5f, 1e-3f);
 }
 
+TEST_F(ViewerTest, AClickWhereAStrokeBeganIsNoDoubleClick) {
+    start(options_for("assets/cornell_box.glb"));
+    drag(MouseButton::left, {60, 90}, {80, 90});
+    const OrbitView view = model().view;
+    click({60, 90});
+    EXPECT_EQ(model().view, view);
+    click({60, 90});
+    EXPECT_NE(model().view, view);
+}
+
 TEST_F(ViewerTest, ExposureAndToneCurveRedrawWithoutARestart) {
     start(options_for("assets/cornell_box.glb"));
     const uint64_t epoch = model().status.epoch;
