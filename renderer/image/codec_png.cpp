@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// PNG through libpng.
+// PNG: the common kind by an own reader, everything else through libpng.
 #include <png.h>
 
 #include <cstring>
 
 #include "renderer/image/atomic_file.h"
 #include "renderer/image/codecs.h"
+#include "renderer/image/png_truecolor.h"
 
 namespace candela {
 
@@ -58,6 +59,11 @@ struct PngWriter {
 }  // namespace
 
 ImageRgba8 decode_png(std::span<const std::byte> bytes, const DecodeLimits& limits) {
+    if (std::optional<ImageRgba8> out = decode_truecolor_png(bytes, limits)) return *std::move(out);
+    return decode_png_with_libpng(bytes, limits);
+}
+
+ImageRgba8 decode_png_with_libpng(std::span<const std::byte> bytes, const DecodeLimits& limits) {
     PngReader reader;
     ByteReader source{bytes};
     png_set_read_fn(reader.png, &source, read_bytes);

@@ -16,6 +16,8 @@ ImageFormat sniff_format(std::span<const std::byte> bytes);
 void check_size(uint64_t width, uint64_t height, const DecodeLimits& limits, size_t pixel_bytes = sizeof(Rgba8));
 
 ImageRgba8 decode_png(std::span<const std::byte> bytes, const DecodeLimits& limits);
+// By the packaged library alone.
+ImageRgba8 decode_png_with_libpng(std::span<const std::byte> bytes, const DecodeLimits& limits);
 ImageRgba8 decode_jpeg(std::span<const std::byte> bytes, const DecodeLimits& limits);
 ImageRgba8 decode_webp(std::span<const std::byte> bytes, const DecodeLimits& limits);
 ImageRgba8 decode_ktx2(std::span<const std::byte> bytes, const DecodeLimits& limits);

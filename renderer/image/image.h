@@ -37,6 +37,12 @@ class Image {
     Image(int width, int height, T fill = T{})
         : width_(width), height_(height), pixels_(static_cast<size_t>(width) * static_cast<size_t>(height), fill) {}
 
+    // Leaves out those below; their memory is kept.
+    void keep_rows(int height) {
+        height_ = height;
+        pixels_.resize(static_cast<size_t>(width_) * static_cast<size_t>(height));
+    }
+
     int width() const { return width_; }
     int height() const { return height_; }
     bool empty() const { return pixels_.empty(); }

@@ -52,7 +52,8 @@ void write_pngs(const fs::path& folder) {
     constexpr Kind kinds[] = {{"grey1", PNG_COLOR_TYPE_GRAY, 1},       {"grey4", PNG_COLOR_TYPE_GRAY, 4},
                               {"grey16", PNG_COLOR_TYPE_GRAY, 16},     {"grey_alpha", PNG_COLOR_TYPE_GRAY_ALPHA, 8},
                               {"palette2", PNG_COLOR_TYPE_PALETTE, 2}, {"palette8", PNG_COLOR_TYPE_PALETTE, 8},
-                              {"rgb", PNG_COLOR_TYPE_RGB, 8},          {"rgba16", PNG_COLOR_TYPE_RGB_ALPHA, 16}};
+                              {"rgb", PNG_COLOR_TYPE_RGB, 8},          {"rgba", PNG_COLOR_TYPE_RGB_ALPHA, 8},
+                              {"rgba16", PNG_COLOR_TYPE_RGB_ALPHA, 16}};
     for (const Kind& kind : kinds) {
         for (const bool interlaced : {false, true}) {
             const fs::path file = place(folder, "png", kind.name + std::string(interlaced ? "_interlaced" : ""));
@@ -71,6 +72,7 @@ void write_pngs(const fs::path& folder) {
                 png_set_tRNS(png, info, alpha, 3, nullptr);
             }
             png_set_gAMA(png, info, 0.45455);
+            png_set_compression_buffer_size(png, 300);  // several chunks
             png_write_info(png, info);
             std::vector<std::vector<png_byte>> rows(height, std::vector<png_byte>(width * 8));
             std::vector<png_bytep> pointers;
