@@ -47,7 +47,8 @@ struct Rows {
         const Lanes8 from_a = b - c, from_b = a - c;
         const Lanes8 pa = magnitude(from_a), pb = magnitude(from_b), pc = magnitude(from_a + from_b);
         const Lanes8 b_or_c = pb <= pc ? b : c;
-        return (pa <= pb) & (pa <= pc) ? a : b_or_c;
+        const auto a_is_nearest = (pa <= pb) & (pa <= pc);
+        return a_is_nearest ? a : b_or_c;
     }
 
     template <typename Predict>

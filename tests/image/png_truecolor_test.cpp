@@ -284,6 +284,24 @@ TEST(PngTruecolor, PixelsAreNeitherMoreNorLessThanTheHeaderSays) {
     }
 }
 
+// A stream that says that it refers 256 bytes back, and refers to the row above, which is farther away.
+TEST(PngTruecolor, StreamsReferNoFurtherBackThanTheySay) {
+    constexpr size_t width = 133;
+    std::mt19937 random(7);
+    std::vector<Bytef> rows(1 + 3 * width);
+    std::generate(rows.begin() + 1, rows.end(), random);
+    rows.insert(rows.end(), rows.begin(), rows.begin() + 1 + 3 * width);
+    Bytes bytes = file_of_rows(width, 2, 3, rows, 8192);
+    ASSERT_TRUE(decode_truecolor_png(bytes, {}));
+    constexpr size_t stream = 8 + 12 + 13 + 8;  // behind signature, header and the head of the chunk
+    bytes[stream] = std::byte{0x08};
+    bytes[stream + 1] = std::byte{0x1d};  // so that both are a multiple of 31
+    bytes = with_checksums(std::move(bytes));
+    EXPECT_FALSE(decode_truecolor_png(bytes, {}));
+    EXPECT_THROW(decode_png_with_libpng(bytes, {}), ImageError);
+    EXPECT_TRUE(readers_agree(bytes));
+}
+
 TEST(PngTruecolor, LimitsAreLibpngs) {
     std::mt19937 random(5);
     const Bytes bytes = encode(picture(40, 30, false, random), {.piece_bytes = 100});
