@@ -3,13 +3,14 @@
 #pragma once
 
 #include "app/viewer/background_task.h"
+#include "app/viewer/ledger_text.h"
 #include "renderer/integrator/aov.h"
-#include "renderer/integrator/ledger.h"
 
 namespace candela {
 
 struct PixelLedger {
     Ledger path;
+    std::vector<LedgerRow> rows;
     uint32_t samples = 0;  // among which it is the brightest
 };
 

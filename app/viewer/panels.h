@@ -40,8 +40,12 @@ PanelArea draw_pixel_panel(const ViewerModel& model, const PanelArea& taken, con
 // The first corner of the room, (1, 1) at the bottom right, where a panel of that size hides neither the pixel nor what
 // is taken; rather that than the pixel.
 Vec2 free_corner(const PanelArea& room, const Vec2& size, const PanelArea& pixel, const PanelArea& taken);
+// How high a panel of that width may be in the room without hiding the pixel.
+float free_height(const PanelArea& room, float width, const PanelArea& pixel);
 // The path of that pixel's brightest sample in the picture.
 void draw_path(const ViewerModel& model);
+// The same path vertex by vertex, in the current window, where so much room is left.
+void draw_ledger(const PixelLedger& ledger, size_t most_rows, float most_width);
 // The scene's tree, materials and lights, in the current window.
 void edit_section(ViewerModel& model, PanelEdits& edits);
 // What is compared, and with what, in the current window.

@@ -13,27 +13,13 @@ const ImU32 path_color = IM_COL32(232, 163, 61, 255), light_color = IM_COL32(110
             shadow_color = IM_COL32(0, 0, 0, 150);
 
 // Of a path; and fewer say too little.
-constexpr size_t most_vertices = 12, least_vertices = 2;
-
-std::string number(float value) {
-    return fmt::format("{:.3g}", value);
-}
+constexpr size_t most_path_rows = 18, least_path_rows = 3;
+// Of the panel, in sizes of the font: as wide as names want it, and where that leaves room for fewer rows.
+constexpr float most_width = 58, usual_width = 42;
+constexpr size_t rows_over_path = 12;
 
 std::string color_text(const Vec3& c) {
     return fmt::format("{:.3g}  {:.3g}  {:.3g}", c.r, c.g, c.b);
-}
-
-std::string material_name(const Scene& scene, uint32_t material) {
-    if (material >= scene.materials.size()) return "glTF's default";
-    const std::string& name = scene.materials[material].name;
-    return name.empty() ? fmt::format("material {}", material) : name;
-}
-
-std::string object_name(const Scene& scene, uint32_t instance) {
-    if (instance >= scene.instances.size()) return "";
-    const NodeId node = scene.instances[instance].node;
-    if (node.valid() && !scene.nodes[node.value].name.empty()) return scene.nodes[node.value].name;
-    return fmt::format("object {}", instance);
 }
 
 void row(const char* name, const std::string& value) {
@@ -43,25 +29,25 @@ void row(const char* name, const std::string& value) {
     ImGui::TextUnformatted(value.c_str());
 }
 
-// What there is room for: a small window has only the first rows.
+// What there is room for: a small window has only the first rows; a large one two beside each other, over the table of
+// the path.
 void pixel_rows(const ViewerModel& model, const Inspection& inspection, bool brief) {
     const Scene& scene = *model.job.world->scene;
-    if (!ImGui::BeginTable("pixel", 2, ImGuiTableFlags_SizingFixedFit)) return;
+    if (!ImGui::BeginTable("pixel", brief ? 2 : 4, ImGuiTableFlags_SizingFixedFit)) return;
     row("pixel", fmt::format("{}, {}", inspection.pixel.x, inspection.pixel.y));
     row("value", color_text(Vec3(inspection.value)));
     if (inspection.error >= 0) {
         const std::string error = "±" + percent_text(static_cast<double>(inspection.error));
         row("error",
-            brief ? error
-                  : fmt::format("{}, {:.0f} samples, {:.1f} rays each", error, inspection.samples, inspection.rays));
+            brief ? error : fmt::format("{}, {:.0f} samples, {:.1f} rays", error, inspection.samples, inspection.rays));
     }
     const FirstHit& hit = inspection.hit;
     row("object", hit.hit ? object_name(scene, hit.instance) : "the background");
     if (hit.hit && !brief) {
         row("material", material_name(scene, hit.material));
         row("position", color_text(hit.position) + " m");
-        row("distance, uv", fmt::format("{:.4g} m, {:.3f} {:.3f}", hit.depth, hit.uv.x, hit.uv.y));
         row("albedo", color_text(hit.albedo));
+        row("distance, uv", fmt::format("{:.4g} m, {:.3f} {:.3f}", hit.depth, hit.uv.x, hit.uv.y));
         // The side panel has the factors for editing.
         if (hit.material < scene.materials.size() && !model.show_panels) {
             const Material& material = scene.materials[hit.material];
@@ -74,34 +60,6 @@ void pixel_rows(const ViewerModel& model, const Inspection& inspection, bool bri
         }
     }
     ImGui::EndTable();
-}
-
-void ledger_rows(const ViewerModel& model, const PixelLedger& ledger, size_t most_rows) {
-    const Scene& scene = *model.job.world->scene;
-    const Ledger& path = ledger.path;
-    ImGui::TextUnformatted(fmt::format("its brightest of {} samples: number {}, {:.3g}", ledger.samples,
-                                       path.sample.index, luminance(path.radiance))
-                               .c_str());
-    if (!ImGui::BeginTable("ledger", 6, ImGuiTableFlags_SizingFixedFit)) return;
-    for (const char* title : {"", "surface", "event", "pdf", "carries", "brings"}) {
-        ImGui::TableNextColumn();
-        ImGui::TextDisabled("%s", title);
-    }
-    for (size_t i = 0; i < std::min(path.vertices.size(), most_rows); ++i) {
-        const LedgerVertex& vertex = path.vertices[i];
-        const float brought = luminance(vertex.found + vertex.connected);
-        for (const std::string& cell :
-             {fmt::format("{}", i + 1),
-              vertex.event == PathEvent::missed ? std::string("background") : material_name(scene, vertex.material),
-              std::string(name_of(vertex.event)), vertex.pdf > 0 ? number(vertex.pdf) : std::string("-"),
-              number(luminance(vertex.throughput)),
-              brought > 0 ? number(brought) + (luminance(vertex.found) > 0 ? " found" : " light") : std::string("-")}) {
-            ImGui::TableNextColumn();
-            ImGui::TextUnformatted(cell.substr(0, 24).c_str());
-        }
-    }
-    ImGui::EndTable();
-    if (path.vertices.size() > most_rows) ImGui::TextDisabled("and %zu more", path.vertices.size() - most_rows);
 }
 
 // Segments of a path in points of the window.
@@ -163,7 +121,7 @@ void draw_path(const ViewerModel& model) {
             overlay.line(vertices[i].position, vertices[i].connection_end, light_color, 1.2f);
     }
     for (size_t i = 0; i < vertices.size(); ++i) {
-        if (vertices[i].event != PathEvent::missed)
+        if (vertices[i].shading.end != PathEnd::missed)
             overlay.dot(vertices[i].position, path_color, fmt::format("{}", i + 1));
     }
 }
@@ -182,6 +140,11 @@ Vec2 free_corner(const PanelArea& room, const Vec2& size, const PanelArea& pixel
     return pivot;
 }
 
+float free_height(const PanelArea& room, float width, const PanelArea& pixel) {
+    const bool beside = pixel.low.x - room.low.x >= width || room.high.x - pixel.high.x >= width;
+    return beside ? room.high.y - room.low.y : std::max(pixel.low.y - room.low.y, room.high.y - pixel.high.y);
+}
+
 PanelArea draw_pixel_panel(const ViewerModel& model, const PanelArea& taken, const PanelArea& before) {
     if (!model.inspection || !model.has_scene()) return {};
     const ImVec2 display = ImGui::GetIO().DisplaySize;
@@ -193,7 +156,16 @@ PanelArea draw_pixel_panel(const ViewerModel& model, const PanelArea& taken, con
 
     const Vec2 pixel =
         (Vec2(model.inspection->pixel) + 0.5f) / Vec2(model.inspection->view.extent) * Vec2(display.x, display.y);
-    const Vec2 pivot = free_corner({low, high}, before.high - before.low, {pixel - unit, pixel + unit}, taken);
+    const PanelArea room{low, high}, marked{pixel - unit, pixel + unit};
+    const float row_height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
+    const size_t rows = rows_over_path + (model.inspection->ledger ? model.inspection->ledger->rows.size() : 0);
+    float width = std::min(most_width * unit, high.x - low.x), height = free_height(room, width, marked);
+    const float narrow = std::min(usual_width * unit, width);
+    if (height < std::min(row_height * static_cast<float>(rows), free_height(room, narrow, marked))) {
+        width = narrow;
+        height = free_height(room, width, marked);
+    }
+    const Vec2 pivot = free_corner(room, before.high - before.low, marked, taken);
     const Vec2 place = low + pivot * (high - low);
     ImGui::SetNextWindowPos({place.x, place.y}, ImGuiCond_Always, {pivot.x, pivot.y});
     ImGui::Begin("Pixel", nullptr,
@@ -201,16 +173,15 @@ PanelArea draw_pixel_panel(const ViewerModel& model, const PanelArea& taken, con
                      ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize |
                      ImGuiWindowFlags_NoInputs);
 
-    // Of the path as much as there is room for.
+    // Of the path as much as there is room for, without hiding the pixel.
     const bool brief = high.x - low.x < 46 * unit || is_tiny();
     pixel_rows(model, *model.inspection, brief);
-    const float row_height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
-    const float rows_left = (high.y - low.y - ImGui::GetCursorPosY()) / row_height - 4;
-    const size_t most_rows = std::min(static_cast<size_t>(std::max(rows_left, 0.0f)), most_vertices);
-    if (!brief && most_rows >= least_vertices) {
+    const float rows_left = (height - ImGui::GetCursorPosY()) / row_height - 5;
+    const size_t most_rows = std::min(static_cast<size_t>(std::max(rows_left, 0.0f)), most_path_rows);
+    if (!brief && most_rows >= least_path_rows) {
         ImGui::Separator();
         if (model.inspection->ledger) {
-            ledger_rows(model, *model.inspection->ledger, most_rows);
+            draw_ledger(*model.inspection->ledger, most_rows, width - 2 * ImGui::GetStyle().WindowPadding.x);
         } else {
             ImGui::TextDisabled("looking for its brightest sample");
         }

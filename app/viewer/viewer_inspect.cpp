@@ -100,7 +100,9 @@ void Viewer::update_inspection() {
             brightest_sample(world, request.view, request.settings, pixel, samples, cancel);
         if (!brightest) return std::nullopt;
         const float far_m = glm::length(world.bounds.upper - world.bounds.lower);
-        return PixelLedger{trace_ledger(world, request.view, request.settings, *brightest, far_m), samples};
+        Ledger path = trace_ledger(world, request.view, request.settings, *brightest, far_m);
+        std::vector<LedgerRow> rows = rows_of(world, path);
+        return PixelLedger{std::move(path), std::move(rows), samples};
     });
 }
 

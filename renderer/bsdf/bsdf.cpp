@@ -155,22 +155,13 @@ BsdfSample sample(const Bsdf& bsdf, const Vec3& wo, float u_lobe, const Vec2& u)
 BsdfSample sample(const Bsdf& bsdf, const BsdfStack& stack, const Vec3& wo, float u_lobe, const Vec2& u) noexcept {
     BsdfSample out;
 
-    // Choose the lobe; what is left of u_lobe is uniform again.
-    int lobe = -1;
-    float probability = 0, u_rest = u_lobe;
-    for (int k = 0; k < bsdf_lobe_count; ++k) {
-        if (!(stack.probability[k] > 0.0f)) continue;
-        lobe = k;
-        probability = stack.probability[k];
-        if (u_rest < probability) break;
-        u_rest -= probability;
-    }
-    if (lobe < 0) return out;
-    u_rest = std::min(u_rest / probability, one_minus_epsilon);
+    // Choose the lobe.
+    const auto [lobe, probability, u_rest] = choose_lobe(stack, u_lobe);
+    if (lobe == bsdf_lobe_count) return out;
 
     // Draw the direction; smooth lobes know their weight at once.
     Vec3 delta_value(0);
-    switch (static_cast<BsdfLobe>(lobe)) {
+    switch (lobe) {
         case coat_lobe: {
             Vec3 wi(-stack.coat_wo.x, -stack.coat_wo.y, stack.coat_wo.z);
             if (bsdf.coat_alpha > 0.0f) {

@@ -35,6 +35,25 @@ BsdfStack make_stack(const Bsdf& bsdf, const Vec3& wo) noexcept;
 // Whether sample() may draw other directions than deltas.
 bool scatters_broadly(const Bsdf& bsdf, const BsdfStack& stack) noexcept;
 
+// The lobe that sample() draws from; what is left of u_lobe is uniform in [0, 1) again.
+struct LobeChoice {
+    BsdfLobe lobe = bsdf_lobe_count;  // none: nothing is scattered
+    float probability = 0, u_rest = 0;
+};
+inline LobeChoice choose_lobe(const BsdfStack& stack, float u_lobe) noexcept {
+    LobeChoice out;
+    out.u_rest = u_lobe;
+    for (int k = 0; k < bsdf_lobe_count; ++k) {
+        if (!(stack.probability[k] > 0.0f)) continue;
+        out.lobe = static_cast<BsdfLobe>(k);
+        out.probability = stack.probability[k];
+        if (out.u_rest < out.probability) break;
+        out.u_rest -= out.probability;
+    }
+    if (out.lobe != bsdf_lobe_count) out.u_rest = std::min(out.u_rest / out.probability, one_minus_epsilon);
+    return out;
+}
+
 // As the functions of bsdf.h that make the stack themselves.
 BsdfSample sample(const Bsdf& bsdf, const BsdfStack& stack, const Vec3& wo, float u_lobe, const Vec2& u) noexcept;
 BsdfEval eval(const Bsdf& bsdf, const BsdfStack& stack, const Vec3& wo, const Vec3& wi) noexcept;

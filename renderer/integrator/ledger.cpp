@@ -7,23 +7,29 @@
 
 namespace candela {
 
-namespace {
-
-// What became of a path that stood before the surface as `before`.
-PathEvent event_of(const Vec3& geometric_normal, const PathState& before, const PathState& after) {
-    if (!after.alive) return PathEvent::ended;
-    if (after.depth == before.depth) return PathEvent::passed;
-    const bool same_side = (glm::dot(after.ray.direction, geometric_normal) > 0.0f) ==
-                           (glm::dot(before.ray.direction, geometric_normal) < 0.0f);
-    if (after.from_delta) return same_side ? PathEvent::mirrored : PathEvent::refracted;
-    return same_side ? PathEvent::reflected : PathEvent::transmitted;
+const char* name_of_scattering(const VertexRecord& shading) {
+    switch (shading.lobe) {
+        case coat_lobe:
+            return "clear coat";
+        case sheen_lobe:
+            return "sheen";
+        case specular_lobe:
+            return "specular reflection";
+        case diffuse_lobe:
+            return "diffuse";
+        case transmitted_lobe:
+            return "diffuse transmission";
+        case glass_lobe:
+            return shading.transmitted ? "transmission" : "specular reflection";
+        case bsdf_lobe_count:
+            break;
+    }
+    return shading.end == PathEnd::none ? "hidden boundary" : "no direction";
 }
 
-}  // namespace
-
-const char* name_of(PathEvent event) {
-    constexpr const char* names[] = {"missed", "ended", "reflected", "transmitted", "mirrored", "refracted", "passed"};
-    return names[static_cast<size_t>(event)];
+const char* name_of(LightTechnique technique) {
+    constexpr const char* names[] = {"seen", "BSDF sample", "light sample"};
+    return names[static_cast<size_t>(technique)];
 }
 
 Ledger trace_ledger(const World& world, const View& view, const IntegratorSettings& settings, PixelSample sample,
@@ -34,16 +40,15 @@ Ledger trace_ledger(const World& world, const View& view, const IntegratorSettin
     PathState path = begin_path(view, settings, sample);
     out.eye = path.ray.origin;
     while (path.alive) {
-        // The stages of trace_sample, with what they changed written down.
+        // The stages of trace_sample, with what they decided written down.
         const PathState before = path;
         const Hit hit = extend(world, path, counts);
         const VertexPoints u = draw_vertex(path);
-        const ShadowRequest light = shade(world, settings, hit, u, path, nullptr);
         LedgerVertex vertex;
+        const ShadowRequest light = shade_recorded(world, settings, hit, u, path, vertex.shading);
         vertex.found = path.radiance - before.radiance;
         if (hit.valid()) {
             const SurfacePoint point = make_surface_point(world, hit, -before.ray.direction);
-            vertex.event = event_of(point.geometric_normal, before, path);
             vertex.position = point.position;
             vertex.material = point.material;
             vertex.instance = world.surfaces[point.surface].instance;
@@ -51,12 +56,11 @@ Ledger trace_ledger(const World& world, const View& view, const IntegratorSettin
             vertex.position = before.ray.origin + far_m * before.ray.direction;
         }
         vertex.throughput = path.throughput;
-        if (vertex.event == PathEvent::reflected || vertex.event == PathEvent::transmitted) vertex.pdf = path.bsdf_pdf;
         if (light.active) {
             const Vec3 unconnected = path.radiance;
             connect(world, light, path, nullptr, counts);
             vertex.connected = path.radiance - unconnected;
-            vertex.has_connection = true;
+            vertex.visibility = world.accel->transmittance(light.ray);
             vertex.connection_end = light.ray.origin + std::min(light.ray.t_max, far_m) * light.ray.direction;
         }
         out.vertices.push_back(vertex);

@@ -4,30 +4,19 @@
 #pragma once
 
 #include "renderer/integrator/integrator.h"
+#include "renderer/integrator/vertex_record.h"
 
 namespace candela {
 
-enum class PathEvent : uint8_t {
-    missed,  // left the scene
-    ended,   // absorbed, or gave up by roulette
-    reflected,
-    transmitted,
-    mirrored,   // reflected in a delta direction
-    refracted,  // transmitted in a delta direction
-    passed      // went on straight: through thin glass, or a boundary that another body hides
-};
-const char* name_of(PathEvent event);
-
 struct LedgerVertex {
-    PathEvent event = PathEvent::missed;
+    VertexRecord shading;
     Vec3 position{0};                                             // of the surface; of a miss: a point on the ray
     uint32_t instance = invalid_index, material = invalid_index;  // invalid: missed
-    Vec3 throughput{1};                                           // after the event
-    float pdf = 0;                                                // of the direction that was drawn; 0: none was
-    Vec3 found{0};                                                // light that the segment ran into
-    Vec3 connected{0};                                            // light of the connection, if it came through
-    bool has_connection = false;
-    Vec3 connection_end{0};  // where the connection leads
+    Vec3 throughput{1};                                           // of the path after the vertex
+    Vec3 found{0};                                                // what shading.found adds to its radiance
+    Vec3 connected{0};                                            // what shading.sampled adds
+    Vec3 visibility{0};      // of the light sample: what of its light comes through; 0 where it is hidden
+    Vec3 connection_end{0};  // where the connection to it leads
 };
 
 struct Ledger {
@@ -36,6 +25,11 @@ struct Ledger {
     Vec3 eye{0};
     std::vector<LedgerVertex> vertices;
 };
+
+// "diffuse", "clear coat": what sent the path on, or was to; "no direction" where none was drawn.
+const char* name_of_scattering(const VertexRecord& shading);
+// "light sample", "BSDF sample".
+const char* name_of(LightTechnique technique);
 
 // Replays the sample as the scalar driver traces it. far_m: how far misses and connections to infinity are drawn.
 Ledger trace_ledger(const World& world, const View& view, const IntegratorSettings& settings, PixelSample sample,

@@ -2,10 +2,10 @@
 #include "renderer/integrator/stages.h"
 
 #include "renderer/bsdf/stack.h"
+#include "renderer/integrator/boundary.h"
 #include "renderer/math/hash.h"
 #include "renderer/sampling/mis.h"
 #include "renderer/sampling/warp.h"
-#include "renderer/sampling/wavelength.h"
 #include "renderer/world/shaded_material.h"
 
 namespace candela {
@@ -32,8 +32,8 @@ constexpr float lobe_cone_share = 0.25f;
 // A path that meets so many surfaces runs in circles between boundaries that no light leaves: rounding, not optics.
 constexpr uint32_t most_segments = 1u << 16;
 
-void gather(const IntegratorSettings& settings, const PathState& path, Vec3 contribution, uint32_t depth,
-            Vec3& radiance) {
+[[gnu::always_inline]] inline void gather(const IntegratorSettings& settings, const PathState& path, Vec3 contribution,
+                                          uint32_t depth, Vec3& radiance) {
     contribution *= path.throughput;
     // The biased clamp, if asked for, holds for light that scattered more than once.
     if (settings.clamp_indirect > 0.0f && depth > 1) {
@@ -57,23 +57,41 @@ LightCoverage coverage_of(const IntegratorSettings& settings) {
 
 // Emission that the path ran into, weighted against the chance that a light sample finds it. Where others share the
 // second vertex, the weight is for each of them to say.
-void gather_found(const IntegratorSettings& settings, const Vec3& emission, float light_pdf, PathState& path,
-                  ReusablePath* reuse) {
+template <bool recorded>
+void gather_found(const IntegratorSettings& settings, const Vec3& emission, float light_pdf, uint32_t surface,
+                  PathState& path, ReusablePath* reuse, VertexRecord* record) {
     if (path.shared && path.depth == 2 && reuse->found_count < reuse->found.size()) {
         reuse->found[reuse->found_count++] = {path.throughput * emission, light_pdf};
         return;
     }
     const float weight = found_light_weight(settings, path, light_pdf);
+    if constexpr (recorded) {
+        LightRecord& found = record->found.emplace();
+        found.technique = path.depth == 0 ? LightTechnique::seen : LightTechnique::bsdf_sample;
+        found.surface = surface;
+        found.light = emission;
+        found.light_pdf = light_pdf;
+        found.bsdf_pdf = path.bsdf_pdf;
+        found.is_delta = path.from_delta;
+        found.share = weight;
+    }
     if (weight > 0.0f) gather(settings, path, weight * emission, path.depth, path.radiance);
 }
 
-void shade_miss(const World& world, const IntegratorSettings& settings, PathState& path, ReusablePath* reuse) {
+template <bool recorded>
+void shade_miss(const World& world, const IntegratorSettings& settings, PathState& path, ReusablePath* reuse,
+                VertexRecord* record) {
     path.alive = false;
+    if constexpr (recorded) record->end = PathEnd::missed;
     if (path.depth == 0 && settings.background != BackgroundKind::environment) {
         if (settings.background == BackgroundKind::transparent) {
             path.alpha = 0.0f;
         } else {
             path.radiance += settings.background_color;
+            if constexpr (recorded) {
+                record->found.emplace().light = settings.background_color;
+                record->found->is_background = true;
+            }
         }
         return;
     }
@@ -87,57 +105,11 @@ void shade_miss(const World& world, const IntegratorSettings& settings, PathStat
         reuse->found[reuse->found_count++] = {radiance, light_pdf};
         return;
     }
-    gather_found(settings, radiance, light_pdf, path, reuse);
-}
-
-// What a body leaves of light over a distance, by Beer-Lambert's law. A body without end absorbs nothing: its mesh is
-// not closed.
-Vec3 transmittance_of(const World& world, uint32_t medium, float distance_m) {
-    if (medium == invalid_index || is_black(world.media[medium].absorption) || !std::isfinite(distance_m)) {
-        return Vec3(1);
-    }
-    return glm::exp(-world.media[medium].absorption * distance_m);
-}
-
-// The boundary of a body, as the path meets it.
-struct Boundary {
-    MediumSet near, far;  // the bodies on wo's side and beyond
-    InterfaceIndices indices;
-    bool is_hidden = false;  // inside another body of higher rank: not there
-};
-
-float index_of(const World& world, uint32_t medium, float wavelength_nm) {
-    if (medium == invalid_index) return 1.0f;
-    const Medium& m = world.media[medium];
-    return m.dispersion > 0.0f && wavelength_nm > 0.0f ? dispersed_ior(m.ior, m.dispersion, wavelength_nm) : m.ior;
-}
-
-// Sorts out which bodies meet at a surface. A dispersive one commits the path to one wavelength.
-Boundary meet_boundary(const World& world, uint32_t medium, bool entering, float u_wavelength, PathState& path) {
-    Boundary out;
-    out.near = out.far = path.media;
-    if (medium == invalid_index) return out;
-    (entering ? out.far : out.near).enter(medium);
-    (entering ? out.near : out.far).leave(medium);
-    const uint32_t other = path.media.present(world, medium);
-    out.is_hidden = other != invalid_index && world.media[other].rank > world.media[medium].rank;
-    if (out.is_hidden) return out;
-
-    const bool disperses =
-        world.media[medium].dispersion > 0.0f || (other != invalid_index && world.media[other].dispersion > 0.0f);
-    if (disperses && path.wavelength_nm == 0.0f) {
-        const WavelengthSample sampled = sample_wavelength(u_wavelength);
-        path.wavelength_nm = sampled.wavelength_nm;
-        path.throughput *= sampled.weight;
-    }
-    const float own = index_of(world, medium, path.wavelength_nm);
-    const float others = index_of(world, other, path.wavelength_nm);
-    out.indices = entering ? InterfaceIndices{others, own} : InterfaceIndices{own, others};
-    return out;
+    gather_found<recorded>(settings, radiance, light_pdf, invalid_index, path, reuse, record);
 }
 
 // What the path's bundle covers at the end of the segment, where its next segment starts.
-RayFootprint footprint_at(float distance_m, PathState& path) {
+[[gnu::always_inline]] inline RayFootprint footprint_at(float distance_m, PathState& path) {
     if (!(path.texture_share > 0.0f)) return {};
     path.cone.width_m = path.cone.width_at(distance_m);
     return {path.cone.width_m, path.texture_share,
@@ -145,7 +117,7 @@ RayFootprint footprint_at(float distance_m, PathState& path) {
 }
 
 // Sends the path on in its direction from the other side of the surface.
-void pass_straight(const SurfacePoint& point, PathState& path) {
+[[gnu::always_inline]] inline void pass_straight(const SurfacePoint& point, PathState& path) {
     path.ray.origin = offset_ray_origin(point.position, -point.geometric_normal, point.error_m);
     path.segments += 1;
 }
@@ -174,10 +146,11 @@ Ray shadow_ray(const World& world, const SurfacePoint& point, const LightSample&
 }
 
 // Next-event estimation: one light, weighted against the chance that a BSDF sample finds it.
+template <bool recorded>
 ShadowRequest plan_connection(const World& world, const IntegratorSettings& settings, const SurfacePoint& point,
                               const LightReceiver& receiver, const Boundary& boundary, const Bsdf& bsdf,
                               const BsdfStack& stack, const Vec3& wo, float u_pick, const Vec2& u,
-                              const PathState& path, ReusablePath* second_of) {
+                              const PathState& path, ReusablePath* second_of, VertexRecord* record) {
     ShadowRequest request;
     const LightSample light = sample_light(world.lights, receiver, coverage_of(settings), u_pick, u);
     if (!(light.pdf > 0.0f)) return request;
@@ -215,6 +188,20 @@ ShadowRequest plan_connection(const World& world, const IntegratorSettings& sett
     request.active = true;
     request.light_surface = light.surface;
     request.punctual = light.punctual;
+    if constexpr (recorded) {
+        LightRecord& sampled = record->sampled.emplace();
+        sampled.technique = LightTechnique::light_sample;
+        sampled.surface = light.surface;
+        sampled.punctual = light.punctual;
+        sampled.light = arriving;
+        sampled.scattered = scattered.value;
+        if (!media.empty()) sampled.transmittance = transmittance_of(world, media.present(world), light.distance);
+        sampled.light_pdf = light.pdf;
+        sampled.bsdf_pdf = light.is_delta ? 0.0f : scattered.pdf;
+        sampled.is_delta = light.is_delta;
+        if (!light.is_delta && settings.estimator == Estimator::mis)
+            sampled.share = mis_weight(light.pdf, scattered.pdf);
+    }
     return request;
 }
 
@@ -235,6 +222,158 @@ bool is_reusable_second(const World& world, const SurfacePoint& point, const Bsd
 
 PathVertex vertex_at(const SurfacePoint& point, const Bsdf& bsdf) {
     return {point.position, point.geometric_normal, point.error_m, point.shading, bsdf};
+}
+
+// The stage itself; recorded: *record says what it decided. That costs the drivers nothing, whose instance has no
+// record.
+template <bool recorded>
+[[gnu::always_inline]] inline ShadowRequest shade_vertex(const World& world, const IntegratorSettings& settings,
+                                                         const Hit& hit, const VertexPoints& u, PathState& path,
+                                                         ReusablePath* reuse, VertexRecord* record) noexcept {
+    ++path.traced;
+    if (!hit.valid()) {
+        shade_miss<recorded>(world, settings, path, reuse, record);
+        return {};
+    }
+    const Vec3 wo_world = -path.ray.direction;
+    const SurfacePoint point = make_surface_point(world, hit, wo_world, footprint_at(hit.distance, path));
+    if (!path.media.empty()) path.throughput *= transmittance_of(world, path.media.present(world), hit.distance);
+    if constexpr (recorded) {
+        if (!path.media.empty())
+            record->transmittance = transmittance_of(world, path.media.present(world), hit.distance);
+    }
+    [[maybe_unused]] const float wavelength_before_nm = path.wavelength_nm;
+
+    // Bodies that meet here: their indices of refraction, or nothing at all where another body hides the boundary.
+    const Boundary boundary =
+        meet_boundary(world, world.surfaces[point.surface].medium, point.front_face, u.wavelength, path);
+    if constexpr (recorded) {
+        if (path.wavelength_nm != wavelength_before_nm) record->transmittance *= sample_wavelength(u.wavelength).weight;
+    }
+    if (boundary.is_hidden) {
+        // To the rays that look for sampled lights it is opaque: what lies beyond, only this path can find.
+        path.from_delta = true;
+        path.media = boundary.far;
+        pass_straight(point, path);
+        path.alive = path.segments < most_segments;
+        if constexpr (recorded) record->end = path.alive ? PathEnd::none : PathEnd::depth;
+        return {};
+    }
+    const ShadedMaterial material = shade_material(world, point, wo_world, boundary.indices);
+
+    // Emission that this segment ran into. Unlit surfaces are not in the light sampler, so nothing else can find them.
+    if (!is_black(material.emission)) {
+        float light_pdf = 0.0f;
+        const uint32_t first_emissive = world.surfaces[point.surface].first_emissive;
+        if (!path.from_delta && first_emissive != invalid_index) {
+            const bool flips = world.transforms[world.surfaces[point.surface].transform].flips;
+            const uint32_t cell = world.lights.cells[first_emissive + point.triangle].index_at(flips ? hit.v : hit.u,
+                                                                                               flips ? hit.u : hit.v);
+            light_pdf = triangle_light_pdf(world.lights, cell, path.vertex, coverage_of(settings), path.ray.direction,
+                                           glm::length(point.position - path.vertex.position));
+        }
+        gather_found<recorded>(settings, material.emission, light_pdf, hit.surface, path, reuse, record);
+    }
+    if constexpr (recorded) record->end = PathEnd::absorbed;
+    if (material.unlit) {
+        path.alive = false;
+        return {};
+    }
+    const Vec3 wo = point.shading.local_from_world(wo_world);
+    const bool may_scatter = settings.max_depth == 0 || path.depth < settings.max_depth;
+
+    // Plan the connection to a light.
+    ShadowRequest request;
+    if (!(wo.z > 0.0f)) {
+        path.alive = false;
+        return request;
+    }
+    const BsdfStack stack = make_stack(material.bsdf, wo);
+    const LightReceiver receiver{point.position, point.shading.normal, material.bsdf.transmits()};
+    if (reuse != nullptr && may_scatter && is_reusable_first(world, point, stack, material.bsdf, path)) {
+        reuse->has_first = true;
+        reuse->first = vertex_at(point, material.bsdf);
+        reuse->first_stack = stack;
+        reuse->first_wo = wo;
+    }
+    const bool is_second =
+        reuse != nullptr && reuse->has_first && may_scatter && is_reusable_second(world, point, material.bsdf, path);
+    if (is_second) {
+        reuse->has_second = true;
+        reuse->second = vertex_at(point, material.bsdf);
+    }
+    if (may_scatter && !world.lights.empty()) {
+        request = plan_connection<recorded>(world, settings, point, receiver, boundary, material.bsdf, stack, wo,
+                                            u.light_choice, u.light, path, is_second ? reuse : nullptr, record);
+    }
+
+    // Draw the next direction. Going straight through thin glass is no scattering: sampled lights shine through it too.
+    const BsdfSample scattered = sample(material.bsdf, stack, wo, u.lobe_choice, u.direction);
+    const Vec3 wi = point.shading.world_from_local(scattered.wi);
+    const bool transmitted = scattered.wi.z < 0.0f;
+    path.alive = scattered.pdf > 0.0f && !is_black(scattered.weight) &&
+                 (glm::dot(wi, point.geometric_normal) < 0.0f) == transmitted &&
+                 (may_scatter || scattered.is_straight) && path.segments < most_segments;
+    if constexpr (recorded) {
+        if (scattered.pdf > 0.0f) {
+            record->lobe = choose_lobe(stack, u.lobe_choice).lobe;
+            record->transmitted = transmitted;
+            record->is_delta = scattered.is_delta;
+            record->is_straight = scattered.is_straight;
+            record->pdf = scattered.pdf;
+            record->weight = scattered.weight;
+            if (!may_scatter && !scattered.is_straight) record->end = PathEnd::depth;
+        }
+        if (path.alive) record->end = PathEnd::none;
+    }
+    if (!path.alive) return request;
+    if (is_second && !scattered.is_delta) {
+        // From here on light is gathered for all who share the vertex.
+        reuse->goes_on = true;
+        reuse->onward_wi = scattered.wi;
+        reuse->own = path.radiance;
+        path.radiance = Vec3(0);
+        path.shared_throughput = path.throughput * scattered.weight;
+        path.throughput = Vec3(1);
+        path.shared = true;
+    } else {
+        path.throughput *= scattered.weight;
+    }
+    if (scattered.is_straight) {
+        pass_straight(point, path);
+    } else {
+        // What a sample of a lobe stands for is the solid angle 1/pdf, of which the cone takes a careful part.
+        if (!scattered.is_delta) {
+            path.cone.spread_radians = std::max(path.cone.spread_radians, lobe_cone_share / std::sqrt(scattered.pdf));
+        }
+        path.bsdf_pdf = scattered.pdf;
+        path.from_delta = scattered.is_delta;
+        path.eta_scale *= sqr(scattered.eta);
+        path.depth += 1;
+        path.segments += 1;
+        path.media = transmitted ? boundary.far : boundary.near;
+        path.vertex = receiver;
+        path.ray.origin = offset_ray_origin(
+            point.position, transmitted ? -point.geometric_normal : point.geometric_normal, point.error_m);
+        path.ray.direction = glm::normalize(wi);
+        path.ray.t_max = infinity;
+    }
+
+    // Russian roulette: a path lives on by the share of light that it still carries.
+    if (settings.russian_roulette && path.segments >= roulette_depth) {
+        const float carried = max_component(glm::abs(path.shared_throughput * path.throughput)) * path.eta_scale;
+        const float survival = std::min(survival_per_throughput * carried, max_survival);
+        if constexpr (recorded) {
+            record->survival = survival;
+            if (u.roulette >= survival) record->end = PathEnd::roulette;
+        }
+        if (u.roulette >= survival) {
+            path.alive = false;
+        } else {
+            path.throughput /= survival;
+        }
+    }
+    return request;
 }
 
 }  // namespace
@@ -286,124 +425,12 @@ VertexPoints vertex_points(const PointBatch& batch, size_t i) noexcept {
 
 ShadowRequest shade(const World& world, const IntegratorSettings& settings, const Hit& hit, const VertexPoints& u,
                     PathState& path, ReusablePath* reuse) noexcept {
-    ++path.traced;
-    if (!hit.valid()) {
-        shade_miss(world, settings, path, reuse);
-        return {};
-    }
-    const Vec3 wo_world = -path.ray.direction;
-    const SurfacePoint point = make_surface_point(world, hit, wo_world, footprint_at(hit.distance, path));
-    if (!path.media.empty()) path.throughput *= transmittance_of(world, path.media.present(world), hit.distance);
+    return shade_vertex<false>(world, settings, hit, u, path, reuse, nullptr);
+}
 
-    // Bodies that meet here: their indices of refraction, or nothing at all where another body hides the boundary.
-    const Boundary boundary =
-        meet_boundary(world, world.surfaces[point.surface].medium, point.front_face, u.wavelength, path);
-    if (boundary.is_hidden) {
-        // To the rays that look for sampled lights it is opaque: what lies beyond, only this path can find.
-        path.from_delta = true;
-        path.media = boundary.far;
-        pass_straight(point, path);
-        path.alive = path.segments < most_segments;
-        return {};
-    }
-    const ShadedMaterial material = shade_material(world, point, wo_world, boundary.indices);
-
-    // Emission that this segment ran into. Unlit surfaces are not in the light sampler, so nothing else can find them.
-    if (!is_black(material.emission)) {
-        float light_pdf = 0.0f;
-        const uint32_t first_emissive = world.surfaces[point.surface].first_emissive;
-        if (!path.from_delta && first_emissive != invalid_index) {
-            const bool flips = world.transforms[world.surfaces[point.surface].transform].flips;
-            const uint32_t cell = world.lights.cells[first_emissive + point.triangle].index_at(flips ? hit.v : hit.u,
-                                                                                               flips ? hit.u : hit.v);
-            light_pdf = triangle_light_pdf(world.lights, cell, path.vertex, coverage_of(settings), path.ray.direction,
-                                           glm::length(point.position - path.vertex.position));
-        }
-        gather_found(settings, material.emission, light_pdf, path, reuse);
-    }
-    if (material.unlit) {
-        path.alive = false;
-        return {};
-    }
-    const Vec3 wo = point.shading.local_from_world(wo_world);
-    const bool may_scatter = settings.max_depth == 0 || path.depth < settings.max_depth;
-
-    // Plan the connection to a light.
-    ShadowRequest request;
-    if (!(wo.z > 0.0f)) {
-        path.alive = false;
-        return request;
-    }
-    const BsdfStack stack = make_stack(material.bsdf, wo);
-    const LightReceiver receiver{point.position, point.shading.normal, material.bsdf.transmits()};
-    if (reuse != nullptr && may_scatter && is_reusable_first(world, point, stack, material.bsdf, path)) {
-        reuse->has_first = true;
-        reuse->first = vertex_at(point, material.bsdf);
-        reuse->first_stack = stack;
-        reuse->first_wo = wo;
-    }
-    const bool is_second =
-        reuse != nullptr && reuse->has_first && may_scatter && is_reusable_second(world, point, material.bsdf, path);
-    if (is_second) {
-        reuse->has_second = true;
-        reuse->second = vertex_at(point, material.bsdf);
-    }
-    if (may_scatter && !world.lights.empty()) {
-        request = plan_connection(world, settings, point, receiver, boundary, material.bsdf, stack, wo, u.light_choice,
-                                  u.light, path, is_second ? reuse : nullptr);
-    }
-
-    // Draw the next direction. Going straight through thin glass is no scattering: sampled lights shine through it too.
-    const BsdfSample scattered = sample(material.bsdf, stack, wo, u.lobe_choice, u.direction);
-    const Vec3 wi = point.shading.world_from_local(scattered.wi);
-    const bool transmitted = scattered.wi.z < 0.0f;
-    path.alive = scattered.pdf > 0.0f && !is_black(scattered.weight) &&
-                 (glm::dot(wi, point.geometric_normal) < 0.0f) == transmitted &&
-                 (may_scatter || scattered.is_straight) && path.segments < most_segments;
-    if (!path.alive) return request;
-    if (is_second && !scattered.is_delta) {
-        // From here on light is gathered for all who share the vertex.
-        reuse->goes_on = true;
-        reuse->onward_wi = scattered.wi;
-        reuse->own = path.radiance;
-        path.radiance = Vec3(0);
-        path.shared_throughput = path.throughput * scattered.weight;
-        path.throughput = Vec3(1);
-        path.shared = true;
-    } else {
-        path.throughput *= scattered.weight;
-    }
-    if (scattered.is_straight) {
-        pass_straight(point, path);
-    } else {
-        // What a sample of a lobe stands for is the solid angle 1/pdf, of which the cone takes a careful part.
-        if (!scattered.is_delta) {
-            path.cone.spread_radians = std::max(path.cone.spread_radians, lobe_cone_share / std::sqrt(scattered.pdf));
-        }
-        path.bsdf_pdf = scattered.pdf;
-        path.from_delta = scattered.is_delta;
-        path.eta_scale *= sqr(scattered.eta);
-        path.depth += 1;
-        path.segments += 1;
-        path.media = transmitted ? boundary.far : boundary.near;
-        path.vertex = receiver;
-        path.ray.origin = offset_ray_origin(
-            point.position, transmitted ? -point.geometric_normal : point.geometric_normal, point.error_m);
-        path.ray.direction = glm::normalize(wi);
-        path.ray.t_max = infinity;
-    }
-
-    // Russian roulette: a path lives on by the share of light that it still carries.
-    if (settings.russian_roulette && path.segments >= roulette_depth) {
-        const float carried = max_component(glm::abs(path.shared_throughput * path.throughput)) * path.eta_scale;
-        const float survival = std::min(survival_per_throughput * carried, max_survival);
-        if (u.roulette >= survival) {
-            path.alive = false;
-        } else {
-            path.throughput /= survival;
-        }
-    }
-    return request;
+ShadowRequest shade_recorded(const World& world, const IntegratorSettings& settings, const Hit& hit,
+                             const VertexPoints& u, PathState& path, VertexRecord& record) noexcept {
+    return shade_vertex<true>(world, settings, hit, u, path, nullptr, &record);
 }
 
 void connect(const World& world, const ShadowRequest& request, PathState& path, ReusablePath* reuse,

@@ -5,6 +5,7 @@
 
 #include "renderer/integrator/path_reuse.h"
 #include "renderer/integrator/path_state.h"
+#include "renderer/integrator/vertex_record.h"
 
 namespace candela {
 
@@ -35,6 +36,9 @@ VertexPoints vertex_points(const PointBatch& batch, size_t i) noexcept;
 // reuse: where to put what others may share of the path; null: nobody shares it.
 ShadowRequest shade(const World& world, const IntegratorSettings& settings, const Hit& hit, const VertexPoints& u,
                     PathState& path, ReusablePath* reuse) noexcept;
+// The same to the bit for a path that nobody shares, and what was decided.
+ShadowRequest shade_recorded(const World& world, const IntegratorSettings& settings, const Hit& hit,
+                             const VertexPoints& u, PathState& path, VertexRecord& record) noexcept;
 
 // Adds the planned light if it comes through.
 void connect(const World& world, const ShadowRequest& request, PathState& path, ReusablePath* reuse,

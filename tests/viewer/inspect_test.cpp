@@ -64,6 +64,9 @@ TEST(PixelPanel, ItHidesNeitherThePixelNorOtherPanels) {
         return free_corner(room, size, {pixel - 15.0f, pixel + 15.0f}, taken);
     };
     EXPECT_EQ(corner({100, 100}, {}), Vec2(1, 1));
+    EXPECT_EQ(free_height(room, 300, {{485, 385}, {515, 415}}), 600) << "there is room beside the pixel";
+    EXPECT_EQ(free_height(room, 500, {{485, 385}, {515, 415}}), 375) << "above it";
+    EXPECT_EQ(free_height(room, 500, {{485, 85}, {515, 115}}), 495) << "below it";
     EXPECT_EQ(corner({700, 500}, {}), Vec2(1, 0));
     EXPECT_EQ(corner({600, 400}, {}), Vec2(1, 0)) << "its edge would touch the pixel";
     EXPECT_EQ(corner({500, 400}, {{600, 10}, {910, 610}}), Vec2(0, 1));
