@@ -24,7 +24,7 @@ class AccessorReader {
 
     // Elements that stand in for an accessor's own until clear_replacements: packed, of the accessor's type and count.
     // So what a compressed primitive holds reads like any other accessor.
-    void replace(uint32_t accessor, std::vector<std::byte> elements) { replaced_[accessor] = std::move(elements); }
+    void replace(uint32_t accessor, RawBytes elements) { replaced_[accessor] = std::move(elements); }
     void clear_replacements() { replaced_.clear(); }
     // Decompresses what these accessors read, as far as it is compressed (BufferStore::decode_early).
     void decode_early(const std::vector<uint32_t>& accessors);
@@ -58,7 +58,7 @@ class AccessorReader {
     LoadContext& context_;
     const Layout& layout_;
     BufferStore& buffers_;
-    std::map<uint32_t, std::vector<std::byte>> replaced_;
+    std::map<uint32_t, RawBytes> replaced_;
 };
 
 }  // namespace candela

@@ -44,7 +44,7 @@ std::span<const std::byte> AssetImages::encoded(size_t index) {
         context_.warn(where, "has neither uri nor bufferView");
         return {};
     }
-    std::vector<std::byte>& bytes = owned_.emplace_back();
+    RawBytes& bytes = owned_.emplace_back();
     try {
         if (is_data_uri(*image.uri)) {
             context_.charge(data_uri_bound_bytes(*image.uri), where + "/uri");

@@ -55,7 +55,7 @@ class AssetImages {
     const Layout& layout_;
     const AssetFiles& files_;
     BufferStore& buffers_;
-    std::vector<std::vector<std::byte>> owned_;
+    std::vector<RawBytes> owned_;
     std::vector<State> states_;
     std::vector<Begun> begun_;
     std::atomic<uint64_t> booked_bytes_{0};    // for pixels

@@ -35,7 +35,7 @@ std::span<const std::byte> BufferStore::read_buffer(size_t index, const AssetFil
             } else {
                 const std::filesystem::path file = files.resolve(*buffer.uri);
                 context_.charge(std::min(file_size_bytes(file), buffer.byte_length), where + "/byteLength");
-                owned_[index] = read_file(file, buffer.byte_length);
+                owned_[index] = read_file(file, buffer.byte_length, true);
             }
         } catch (const FileError& error) {
             context_.fail(where + "/uri", error.what());

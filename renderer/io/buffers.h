@@ -33,12 +33,12 @@ class BufferStore {
 
     LoadContext& context_;
     const Layout& layout_;
-    std::vector<std::vector<std::byte>> owned_;
+    std::vector<RawBytes> owned_;
     std::vector<std::span<const std::byte>> buffers_;
     void decode(uint32_t index);
 
     // By view, where it is compressed, once it was asked for.
-    std::vector<std::vector<std::byte>> decoded_;
+    std::vector<RawBytes> decoded_;
     std::vector<std::once_flag> asked_;
 };
 

@@ -233,7 +233,7 @@ uint64_t DracoMesh::face_count() const {
     return impl_->mesh->num_faces();
 }
 
-std::vector<std::byte> DracoMesh::attribute(uint32_t unique_id, const AccessorLayout& accessor) const {
+RawBytes DracoMesh::attribute(uint32_t unique_id, const AccessorLayout& accessor) const {
     const draco::PointAttribute* source = impl_->mesh->GetAttributeByUniqueId(unique_id);
     if (source == nullptr) {
         throw std::runtime_error("the compressed data has no attribute of id " + std::to_string(unique_id));
@@ -265,7 +265,7 @@ std::vector<std::byte> DracoMesh::attribute(uint32_t unique_id, const AccessorLa
         require(value < values, "the compressed attribute reaches past its data");
         return bytes + offset + value * stride;
     };
-    std::vector<std::byte> out(points * out_element);
+    RawBytes out(points * out_element);
     // Copies are of a size that the compiler knows.
     const auto copy_all = [&](auto element) {
         for (uint64_t p = 0; p < points; ++p)
@@ -291,10 +291,10 @@ std::vector<std::byte> DracoMesh::attribute(uint32_t unique_id, const AccessorLa
     return out;
 }
 
-std::vector<std::byte> DracoMesh::indices(const AccessorLayout& accessor) const {
+RawBytes DracoMesh::indices(const AccessorLayout& accessor) const {
     const draco::Mesh& mesh = *impl_->mesh;
     const uint64_t component = component_bytes(accessor.type);
-    std::vector<std::byte> out(uint64_t{mesh.num_faces()} * 3 * component);
+    RawBytes out(uint64_t{mesh.num_faces()} * 3 * component);
     std::byte* to = out.data();
     const auto store = [&](uint32_t corner) {
         if (accessor.type != ComponentType::u32) return store_component(accessor.type, corner, to);

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "renderer/io/files.h"
 #include "renderer/io/layout.h"
 
 namespace candela {
@@ -30,9 +31,9 @@ class DracoMesh {
     uint64_t point_count() const;
     uint64_t face_count() const;
     // Elements of the attribute of that unique id, packed in the accessor's own component type; one per point.
-    std::vector<std::byte> attribute(uint32_t unique_id, const AccessorLayout& accessor) const;
+    RawBytes attribute(uint32_t unique_id, const AccessorLayout& accessor) const;
     // Three corners per face, each below point_count(), packed in the accessor's own component type.
-    std::vector<std::byte> indices(const AccessorLayout& accessor) const;
+    RawBytes indices(const AccessorLayout& accessor) const;
 
   private:
     struct Impl;

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/io/files.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cctype>
-#include <fstream>
+#include <cerrno>
+
+#include "renderer/math/parallel.h"
 
 namespace candela {
 namespace {
@@ -26,11 +31,11 @@ int base64_digit(char c) {
     return -1;
 }
 
-std::vector<std::byte> decode_base64(std::string_view text) {
+RawBytes decode_base64(std::string_view text) {
     while (!text.empty() && text.back() == '=')
         text.remove_suffix(1);
     if (text.size() % 4 == 1) throw FileError("the base64 text of the data: URI is cut off");
-    std::vector<std::byte> bytes;
+    RawBytes bytes;
     bytes.reserve(text.size() / 4 * 3 + 2);
     uint32_t bits = 0;
     int held = 0;
@@ -56,6 +61,30 @@ bool has_scheme(std::string_view uri) {
         return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '+' || c == '-' || c == '.';
     });
 }
+
+class OpenFile {
+  public:
+    explicit OpenFile(const fs::path& file) : descriptor_(open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
+        if (descriptor_ < 0) throw FileError("cannot be opened; check its permissions");
+    }
+    OpenFile(const OpenFile&) = delete;
+    OpenFile& operator=(const OpenFile&) = delete;
+    ~OpenFile() { close(descriptor_); }
+
+    // All of `to`, from that place of the file on.
+    void read(std::span<std::byte> to, uint64_t from) const {
+        while (!to.empty()) {
+            const ssize_t count = pread(descriptor_, to.data(), to.size(), static_cast<off_t>(from));
+            if (count < 0 && errno == EINTR) continue;
+            if (count <= 0) throw FileError("cannot be read to its end");
+            to = to.subspan(static_cast<size_t>(count));
+            from += static_cast<uint64_t>(count);
+        }
+    }
+
+  private:
+    int descriptor_;
+};
 
 // The name inside directory, canonical, or empty where there is no such regular file. Throws where it leads outside.
 fs::path canonical_inside(const fs::path& directory, const std::string& name) {
@@ -127,13 +156,21 @@ uint64_t file_size_bytes(const fs::path& file) {
     return size;
 }
 
-std::vector<std::byte> read_file(const fs::path& file, uint64_t most_bytes) {
+RawBytes read_file(const fs::path& file, uint64_t most_bytes, bool on_all_cores) {
     const uint64_t size = std::min(file_size_bytes(file), most_bytes);
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw FileError("cannot be opened; check its permissions");
-    std::vector<std::byte> bytes(size);
-    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-    if (static_cast<uint64_t>(stream.gcount()) != size) throw FileError("cannot be read to its end");
+    const OpenFile open_file(file);
+    RawBytes bytes(size);
+    // Most of the time goes into pages of memory that are touched for the first time.
+    constexpr uint64_t piece_bytes = uint64_t{1} << 19;
+    const uint64_t pieces = on_all_cores ? (size + piece_bytes - 1) / piece_bytes : 1;
+    if (pieces <= 1) {
+        open_file.read(bytes, 0);
+    } else {
+        parallel_for_each(pieces, 1, [&](size_t i) {
+            const uint64_t begin = i * piece_bytes;
+            open_file.read(std::span(bytes).subspan(begin, std::min(piece_bytes, size - begin)), begin);
+        });
+    }
     return bytes;
 }
 
@@ -148,7 +185,7 @@ uint64_t data_uri_bound_bytes(std::string_view uri) {
     return uri.size();
 }
 
-std::vector<std::byte> decode_data_uri(std::string_view uri) {
+RawBytes decode_data_uri(std::string_view uri) {
     const size_t comma = uri.find(',');
     if (comma == std::string_view::npos) throw FileError("the data: URI has no comma and so no data");
     const std::string_view head = uri.substr(0, comma);

@@ -10,7 +10,12 @@
 #include <string_view>
 #include <vector>
 
+#include "renderer/image/image.h"
+
 namespace candela {
+
+// Bytes that are written right after there is memory for them, and so need no zeros first.
+using RawBytes = std::vector<std::byte, UnfilledAllocator<std::byte>>;
 
 // what() is the reason, one line.
 struct FileError : std::runtime_error {
@@ -34,15 +39,15 @@ class AssetFiles {
 
 // Bytes of a regular file (devices and pipes are refused). Throws FileError.
 uint64_t file_size_bytes(const std::filesystem::path& file);
-// The first most_bytes of it, or all.
-std::vector<std::byte> read_file(const std::filesystem::path& file,
-                                 uint64_t most_bytes = std::numeric_limits<uint64_t>::max());
+// The first most_bytes of it, or all; on_all_cores: in pieces at the same time.
+RawBytes read_file(const std::filesystem::path& file, uint64_t most_bytes = std::numeric_limits<uint64_t>::max(),
+                   bool on_all_cores = false);
 
 bool is_data_uri(std::string_view uri);
 // An upper bound of the decoded size, to book memory before decoding.
 uint64_t data_uri_bound_bytes(std::string_view uri);
 // base64 or percent-encoded, any media type. Throws FileError.
-std::vector<std::byte> decode_data_uri(std::string_view uri);
+RawBytes decode_data_uri(std::string_view uri);
 
 std::string percent_decode(std::string_view text);
 

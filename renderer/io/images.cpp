@@ -95,7 +95,7 @@ void ImageDecoding::Impl::decode(size_t i) {
         image.error = "cancelled";
         return;
     }
-    std::vector<std::byte> owned;
+    RawBytes owned;
     std::span<const std::byte> bytes;
     try {
         if (const auto* file = std::get_if<std::filesystem::path>(&encoded.source)) {

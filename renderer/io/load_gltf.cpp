@@ -26,10 +26,10 @@
 namespace candela {
 namespace {
 
-std::vector<std::byte> read_asset(LoadContext& context, const std::filesystem::path& path) {
+RawBytes read_asset(LoadContext& context, const std::filesystem::path& path) {
     try {
         context.charge(file_size_bytes(path), "");
-        return read_file(path);
+        return read_file(path, std::numeric_limits<uint64_t>::max(), true);
     } catch (const FileError& error) {
         context.fail("", error.what());
     }

@@ -51,9 +51,9 @@ int decode(const MeshoptView& view, std::span<std::byte> into) {
 
 }  // namespace
 
-std::vector<std::byte> decode_meshopt(const MeshoptView& view) {
+RawBytes decode_meshopt(const MeshoptView& view) {
     check_parameters(view);
-    std::vector<std::byte> out(view.count * view.stride);
+    RawBytes out(view.count * view.stride);
     if (view.count == 0) return out;
     require(decode(view, out) == 0, "the compressed data is damaged");
     switch (view.filter) {

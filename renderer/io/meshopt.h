@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "renderer/io/files.h"
+
 namespace candela {
 
 enum class MeshoptMode : uint8_t { attributes, triangles, indices };
@@ -23,6 +25,6 @@ struct MeshoptView {
 // Returns count · stride bytes. Throws std::runtime_error with the reason (one line, no file name) when stride or count
 // do not fit the mode or the filter, or the stream is damaged. The caller has bounded count · stride by its memory
 // limit.
-std::vector<std::byte> decode_meshopt(const MeshoptView& view);
+RawBytes decode_meshopt(const MeshoptView& view);
 
 }  // namespace candela

@@ -59,19 +59,15 @@ uint64_t vertex_bytes(const Primitive& p) {
 
 size_t drop_unused_vertices(Primitive& primitive) {
     const size_t before = primitive.positions.size();
-    constexpr uint32_t unused = 0xffffffffu;
-    std::vector<uint32_t> new_index(before, unused);
-    for (const Vec3u& t : primitive.triangles) {
-        for (int c = 0; c < 3; ++c)
-            new_index[t[c]] = 0;
-    }
-    std::vector<uint32_t> kept;
+    std::vector<uint8_t> used(before, 0);
+    for (const Vec3u& t : primitive.triangles)
+        used[t.x] = used[t.y] = used[t.z] = 1;
+    if (std::find(used.begin(), used.end(), uint8_t{0}) == used.end()) return 0;
+    std::vector<uint32_t> new_index(before), kept;
     for (uint32_t i = 0; i < before; ++i) {
-        if (new_index[i] == unused) continue;
         new_index[i] = static_cast<uint32_t>(kept.size());
-        kept.push_back(i);
+        if (used[i] != 0) kept.push_back(i);
     }
-    if (kept.size() == before) return 0;
     for (Vec3u& t : primitive.triangles)
         t = {new_index[t.x], new_index[t.y], new_index[t.z]};
     gather_vertices(primitive, kept);

@@ -180,7 +180,8 @@ class BodyMaker {
         positions_.reserve(vertices + position_padding);
         positions_.resize(vertices);
         normals_.resize(vertices);
-        sources_.resize(vertices);
+        const bool has_more = vertex_bytes(primitive) > 0 || primitive.deformation != nullptr;
+        if (has_more) sources_.resize(vertices);
         triangles_.resize(positions.size() * sphere_triangles + tubes.size() * tube_corners);
         parallel_for_each(positions.size(), 64, [&](size_t v) {
             put_sphere(positions[v], static_cast<uint32_t>(v), v * sphere_vertices, v * sphere_triangles);
@@ -189,7 +190,7 @@ class BodyMaker {
             put_tube(positions, tubes[i], positions.size() * sphere_vertices + i * tube_corners,
                      positions.size() * sphere_triangles + i * tube_corners);
         });
-        gather_vertices(primitive, sources_);
+        if (has_more) gather_vertices(primitive, sources_);
         primitive.positions = std::move(positions_);
         primitive.normals = std::move(normals_);
         primitive.triangles = std::move(triangles_);
@@ -217,7 +218,7 @@ class BodyMaker {
     void put_vertex(size_t at, const Vec3& center, const Offset& offset, uint32_t source) {
         positions_[at] = Vec3(glm::dvec3(center) + offset.offset);
         normals_[at] = offset.normal;
-        sources_[at] = source;
+        if (!sources_.empty()) sources_[at] = source;
     }
 
     // Wound as seen from outside in the world; a mirroring node turns that round (glTF 2.0, section 3.7.4).
@@ -260,7 +261,7 @@ class BodyMaker {
     std::vector<std::pair<double, double>> sides_;  // cosine and sine
     std::vector<Vec3> positions_, normals_;
     std::vector<Vec3u> triangles_;
-    std::vector<uint32_t> sources_;
+    std::vector<uint32_t> sources_;  // of each vertex, where it has more than position and normal
 };
 
 }  // namespace

@@ -87,10 +87,10 @@ class StoredPictures {
     Diagnostics diagnostics_;
     LoadOptions options_;
     LoadContext context_;
-    std::vector<std::byte> bytes_;
+    RawBytes bytes_;
     Layout layout_;
     std::optional<BufferStore> buffers_;
-    std::vector<std::vector<std::byte>> owned_;
+    std::vector<RawBytes> owned_;
     std::vector<std::span<const std::byte>> encoded_;
 };
 

@@ -15,7 +15,7 @@ void check_indices(const DracoMesh& mesh) {
     AccessorLayout scalar;
     scalar.type = ComponentType::u32;
     scalar.count = 3 * mesh.face_count();
-    const std::vector<std::byte> corners = mesh.indices(scalar);
+    const RawBytes corners = mesh.indices(scalar);
     fuzz::require(corners.size() == scalar.count * sizeof(uint32_t), "each triangle has three corners");
     for (size_t i = 0; i < scalar.count; ++i) {
         uint32_t corner = 0;

@@ -14,7 +14,7 @@ class Files : public GltfTest {
     static std::span<const std::byte> bytes_of(const std::string& text) {
         return {reinterpret_cast<const std::byte*>(text.data()), text.size()};
     }
-    static std::string as_text(const std::vector<std::byte>& bytes) {
+    static std::string as_text(std::span<const std::byte> bytes) {
         return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
     }
     std::string failure_of_glb(const std::string& bytes) {

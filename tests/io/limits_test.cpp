@@ -141,7 +141,7 @@ TEST_F(ImageLimits, Sides) {
 TEST(ImageMemory, IsThatOfAllPicturesTogether) {
     const TemporaryFolder folder;
     write_png(folder.path() / "a.png", ImageRgba8(40, 30, Rgba8(9)), false);
-    const std::vector<std::byte> png = read_file(folder.path() / "a.png");
+    const RawBytes png = read_file(folder.path() / "a.png");
     const std::span<const std::byte> both[] = {png, png};
     ImageDecodeOptions options;
     options.threads = 1;

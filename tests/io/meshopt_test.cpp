@@ -25,7 +25,7 @@ std::span<const std::byte> bytes_of(const std::vector<unsigned char>& data) {
 template <typename T>
 std::vector<T> decode_as(const std::vector<unsigned char>& encoded, size_t count, size_t stride, MeshoptMode mode,
                          MeshoptFilter filter = MeshoptFilter::none) {
-    const Bytes decoded = decode_meshopt({bytes_of(encoded), count, stride, mode, filter});
+    const RawBytes decoded = decode_meshopt({bytes_of(encoded), count, stride, mode, filter});
     std::vector<T> out(decoded.size() / sizeof(T));
     std::memcpy(out.data(), decoded.data(), decoded.size());
     return out;

@@ -153,7 +153,7 @@ TEST_F(Overlap, WhereMemoryRunsShortDependsOnTheFileAlone) {
 }
 
 TEST_F(Overlap, NothingIsDecodedOnceItIsCancelled) {
-    const std::vector<std::byte> bytes = read_file(folder_ / name(0));
+    const RawBytes bytes = read_file(folder_ / name(0));
     const std::vector<std::span<const std::byte>> sources(3, bytes);
     std::atomic<bool> cancel{false};
     ImageDecodeOptions options;
