@@ -13,7 +13,7 @@ namespace {
 
 // Made by make_albedo_table.cpp.
 constexpr AlbedoTables tables =
-#include "albedo_values.inc"
+#include "renderer/bsdf/albedo_values.inc"
     ;
 
 // Albedo by cosine, azimuth from the wide axis, narrow width and anisotropy: alpha.x = mix(alpha.y, 1, anisotropy²).
