@@ -72,7 +72,8 @@ void draw_convergence(const ViewerModel& model) {
     const ErrorWords words = words_of(model);
     const std::vector<ErrorPoint>& points = model.history.points();
     if (words.brief.empty() || points.size() < 2) {
-        ImGui::TextDisabled("the error is known after some samples");
+        ImGui::TextDisabled(words.brief.empty() ? "the error is known after some samples"
+                                                : "how the error falls is known after more samples");
         return;
     }
     const float width = std::min(31 * unit, ImGui::GetIO().DisplaySize.x - 4 * unit), height = 9 * unit;

@@ -128,7 +128,9 @@ void draw_legend(const ViewerModel& model, bool beside_readings) {
     ImGui::TextUnformatted(title_of(model.map));
     if (metric && model.reference && model.reference->mean_samples) {
         ImGui::SameLine();
-        ImGui::TextDisabled("%s", metric_words(*metric, model.reference->difference).c_str());
+        ImGui::TextDisabled("%s", *metric == ReferenceMetric::flip
+                                      ? fmt::format("mean {:.3f}", model.reference->difference.flip).c_str()
+                                      : metric_words(*metric, model.reference->difference).c_str());
     } else if (!metric && is_error) {
         ImGui::SameLine();
         ImGui::TextDisabled("of its value");

@@ -171,9 +171,27 @@ void draw_welcome(const ViewerModel&) {
     ImGui::End();
 }
 
-bool draw_notice(const ViewerModel& model) {
-    const float wrap = std::min(44 * unit(), 0.9f * ImGui::GetIO().DisplaySize.x - 2 * unit());
-    place({0.5f, 0.0f}, {0, unit()});
+PanelArea notice_room(const Vec2& window, float unit, const PanelArea& statistics, float side_panel) {
+    const float least = 18 * unit;
+    PanelArea room{Vec2(unit), window - unit};
+    if (side_panel > 0 && window.x - side_panel - 3 * unit >= least) room.high.x -= side_panel + unit;
+    if (statistics == PanelArea{}) return room;
+    const float beside = statistics.high.x + unit;
+    if (room.high.x - beside >= least) {
+        room.low.x = beside;
+    } else {
+        room.low.y = statistics.high.y + unit;
+    }
+    return room;
+}
+
+bool draw_notice(const ViewerModel& model, const PanelArea& statistics) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const PanelArea room = notice_room({display.x, display.y}, unit(), statistics,
+                                       model.show_panels && model.has_scene() ? side_panel_width() : 0);
+    const float width = room.high.x - room.low.x;
+    const float wrap = std::min(44 * unit(), width - ImGui::GetStyle().WindowPadding.x);
+    ImGui::SetNextWindowPos({room.low.x + 0.5f * width, room.low.y}, ImGuiCond_Always, {0.5f, 0});
     bound_next_window();
     ImGui::Begin("notice", nullptr, overlay_flags | (model.notice_is_error ? 0 : ImGuiWindowFlags_NoInputs));
     ImGui::PushTextWrapPos(wrap);
@@ -200,7 +218,15 @@ PanelArea draw_statistics(const ViewerModel& model) {
     };
     const SessionStatus& status = model.status;
     const World& world = *model.job.world;
-    if (ImGui::BeginTable("figures", 2)) {
+    // What tells figures apart is in one column, in whichever table.
+    const auto begin_figures = [](const char* name) {
+        if (!ImGui::BeginTable(name, 2)) return false;
+        ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed,
+                                ImGui::CalcTextSize("of which reprojecting").x);
+        ImGui::TableSetupColumn("figure");
+        return true;
+    };
+    if (begin_figures("figures")) {
         row("picture", fmt::format("{} x {}", model.frame_extent.x, model.frame_extent.y));
         row("triangles", fmt::format("{} in {} instances", world.triangle_count, world.scene->instances.size()));
         row("light sources", fmt::format("{} punctual, {} triangles{}", world.lights.punctual.size(),
@@ -224,7 +250,7 @@ PanelArea draw_statistics(const ViewerModel& model) {
     }
     if (model.reference) {
         ImGui::Separator();
-        if (ImGui::BeginTable("reference", 2)) {
+        if (begin_figures("reference")) {
             row("reference", file_name(model.reference->path));
             if (model.reference->mean_samples) {
                 const ImageDifference& d = model.reference->difference;
@@ -233,7 +259,12 @@ PanelArea draw_statistics(const ViewerModel& model) {
                 row("RMSE, relMSE", fmt::format("{:.3g}, {:.3g}", d.rmse, d.rel_mse));
                 row("FLIP", fmt::format("{:.4f}", d.flip));
             } else {
-                row("its size", fmt::format("{} x {}", model.reference->extent.x, model.reference->extent.y));
+                const Vec2u size = model.reference->extent;
+                if (size == model.frame_extent) {
+                    row("its size", fmt::format("{} x {}", size.x, size.y));
+                } else {
+                    row("not compared", fmt::format("it has {} x {} pixels", size.x, size.y));
+                }
             }
             ImGui::EndTable();
         }

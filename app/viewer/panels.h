@@ -22,7 +22,10 @@ void draw_loading_bar(const ViewerModel& model);
 // Before the first scene is there.
 void draw_welcome(const ViewerModel& model);
 // A line of news or of failure; returns true when the person dismissed it.
-bool draw_notice(const ViewerModel& model);
+bool draw_notice(const ViewerModel& model, const PanelArea& statistics);
+// Where notices may stand in a window of that size: at the top, beside the statistics and the side panel (its width; 0:
+// none), or under the statistics where there is too little room beside.
+PanelArea notice_room(const Vec2& window, float unit, const PanelArea& statistics, float side_panel);
 // Over the status line, for files with animations: while the panels are open or one of them is shown.
 bool timeline_is_shown(const ViewerModel& model);
 void draw_timeline(const ViewerModel& model, PanelEdits& edits);

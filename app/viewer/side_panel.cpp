@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/viewer/environment_files.h"
+#include "app/viewer/fields.h"
 #include "app/viewer/panels.h"
 
 namespace candela {
@@ -21,9 +22,10 @@ bool choose(const char* label, E& value, const char* const (&words)[N]) {
 }
 
 // A combo over strings that the file names; returns the chosen index.
-std::optional<uint32_t> choose_named(const char* label, const char* preview, const std::vector<std::string>& names) {
+std::optional<uint32_t> choose_named(const char* label, const std::string& preview,
+                                     const std::vector<std::string>& names) {
     std::optional<uint32_t> chosen;
-    if (!ImGui::BeginCombo(label, preview)) return chosen;
+    if (!begin_combo(label, preview)) return chosen;
     for (uint32_t i = 0; i < names.size(); ++i) {
         ImGui::PushID(static_cast<int>(i));
         if (ImGui::Selectable(names[i].empty() ? fmt::format("number {}", i).c_str() : names[i].c_str())) chosen = i;
@@ -69,7 +71,7 @@ void light_section(ViewerModel& model, PanelEdits& edits) {
             ImGui::SliderFloat("intensity", &model.options.hdri_intensity, 0, 10, "%.2f", ImGuiSliderFlags_Logarithmic);
     }
     const std::string now = model.options.hdri.empty() ? "choose" : file_name(model.options.hdri);
-    if (ImGui::BeginCombo("file", now.c_str())) {
+    if (begin_combo("file", now)) {
         // Looked for when the list opens.
         if (ImGui::IsWindowAppearing())
             model.environment_files = environment_files(model.job.scene_path, model.options.hdri);
@@ -84,8 +86,7 @@ void light_section(ViewerModel& model, PanelEdits& edits) {
     IntegratorSettings& settings = model.options.integrator;
     edits.settings |= choose("background", settings.background, backgrounds);
     if (settings.background == BackgroundKind::color)
-        edits.settings |= ImGui::ColorEdit3("colour", &settings.background_color.x,
-                                            ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR);
+        edits.settings |= color_field("colour", settings.background_color, 0);
 }
 
 void render_section(ViewerModel& model, PanelEdits& edits) {
@@ -145,15 +146,14 @@ void scene_section(const ViewerModel& model, PanelEdits& edits) {
     if (scene.scene_names.size() > 1) {
         const std::string& now = scene.scene_names[scene.active_scene];
         edits.scene =
-            choose_named("scene", now.empty() ? fmt::format("number {}", scene.active_scene).c_str() : now.c_str(),
-                         scene.scene_names);
+            choose_named("scene", now.empty() ? fmt::format("number {}", scene.active_scene) : now, scene.scene_names);
     }
     if (!scene.variant_names.empty()) {
         constexpr const char* own = "the file's own";
         std::vector<std::string> names{own};
         names.insert(names.end(), scene.variant_names.begin(), scene.variant_names.end());
         const std::string& now = scene.active_variant ? scene.variant_names[*scene.active_variant] : names[0];
-        if (const std::optional<uint32_t> chosen = choose_named("variant", now.c_str(), names)) {
+        if (const std::optional<uint32_t> chosen = choose_named("variant", now, names)) {
             edits.variant = *chosen == 0 ? std::optional<uint32_t>() : std::optional<uint32_t>(*chosen - 1);
         }
     }

@@ -453,7 +453,7 @@ void Viewer::draw() {
         if (model_.show_panels) edits = draw_side_panel(model_);
         if (timeline_is_shown(model_)) draw_timeline(model_, edits);
         if (model_.show_help) draw_help();
-        if (!model_.notice.empty() && draw_notice(model_)) {
+        if (!model_.notice.empty() && draw_notice(model_, statistics)) {
             model_.notice.clear();
             redraws_ = 2;
         }

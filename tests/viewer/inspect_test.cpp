@@ -76,6 +76,20 @@ TEST(PixelPanel, ItHidesNeitherThePixelNorOtherPanels) {
         << "rather the statistics are hidden than the pixel";
 }
 
+TEST(Notices, TheyStandBesideStatisticsAndPanelsOrUnderThem) {
+    const PanelArea statistics{{15, 15}, {503, 494}};
+    for (const Vec2 window : {Vec2(1280, 720), Vec2(800, 600), Vec2(2560, 1440), Vec2(320, 640)}) {
+        for (const float side_panel : {0.0f, std::min(300.0f, window.x - 30)}) {
+            const PanelArea room = notice_room(window, 15, statistics, side_panel);
+            EXPECT_FALSE(room.overlaps(statistics)) << window.x;
+            EXPECT_GE(room.high.x - room.low.x, 18 * 15) << window.x;
+            const float taken = side_panel > 0 && window.x > 700 ? side_panel + 15 : 0;
+            EXPECT_LE(room.high.x, window.x - 15 - taken);
+        }
+    }
+    EXPECT_EQ(notice_room({1280, 720}, 15, {}, 0), (PanelArea{{15, 15}, {1265, 705}}));
+}
+
 TEST_F(ViewerTest, TabThatIsHeldTypesNothing) {
     start(options_for("assets/cornell_box.glb", 1));
     viewer_->handle(KeyPressed{Key::tab, true, {}});
