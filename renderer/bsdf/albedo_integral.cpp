@@ -78,4 +78,25 @@ AlbedoTables AlbedoTables::integrated() {
     return out;
 }
 
+AnisotropicTable AnisotropicTable::integrated() {
+    const auto integrate_node = [](int c, int p, int a, int s) {
+        const float cosine = std::max(sqr(static_cast<float>(c) / (cosines - 1)), 1e-4f);
+        const float narrow = std::max(sqr(static_cast<float>(a) / (alphas - 1)), min_ggx_alpha);
+        const float wide = lerp(narrow, 1.0f, sqr(static_cast<float>(s) / (strengths - 1)));
+        return integrate_specular_albedo(table_direction(cosine, 0.5f * pi * static_cast<float>(p) / (azimuths - 1)),
+                                         Vec2(wide, narrow), 8);
+    };
+    AnisotropicTable out;
+    size_t at = 0;
+    for (int s = 0; s < strengths; ++s) {
+        for (int a = 0; a < alphas; ++a) {
+            for (int p = 0; p < azimuths; ++p) {
+                for (int c = 0; c < cosines; ++c)
+                    out.albedo[at++] = integrate_node(c, p, a, s);
+            }
+        }
+    }
+    return out;
+}
+
 }  // namespace candela

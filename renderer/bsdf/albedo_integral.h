@@ -31,7 +31,8 @@ Vec3 table_direction(float cosine, float phi);
 // Over visible normals, whose weight is G2/G1, with a Hammersley point set of 2^digits points.
 SpecularAlbedo integrate_specular_albedo(const Vec3& wo, const Vec2& alpha, uint32_t digits);
 
-// Isotropic lobes. Filling it takes tens of milliseconds: the build does that (make_albedo_table.cpp), not the program.
+// Isotropic lobes. Filling these tables takes tens of milliseconds: the build does that (make_tables.cpp), not the
+// program.
 struct AlbedoTables {
     static constexpr int size = 32;
 
@@ -39,6 +40,15 @@ struct AlbedoTables {
     std::array<MeanSpecularAlbedo, size> mean;                  // [roughness]
 
     static AlbedoTables integrated();
+};
+
+// Albedo by cosine, azimuth from the wide axis, narrow width and anisotropy: alpha.x = mix(alpha.y, 1, anisotropy²).
+struct AnisotropicTable {
+    static constexpr int cosines = 16, azimuths = 7, alphas = 10, strengths = 6;
+
+    std::array<SpecularAlbedo, size_t{cosines} * azimuths * alphas * strengths> albedo;  // the cosine runs fastest
+
+    static AnisotropicTable integrated();
 };
 
 }  // namespace candela

@@ -6,7 +6,7 @@
 namespace candela {
 
 // cos_theta in [0,1]; alpha the GGX width; eta the index beyond over the index on the light's side, from 1/3 to 3 (held
-// beyond). The scaling of radiance by 1/eta² is left out. Trilinear in a table made at the first call.
+// beyond). The scaling of radiance by 1/eta² is left out. Trilinear in a table.
 float interface_albedo(float cos_theta, float alpha, float eta) noexcept;
 
 }  // namespace candela
