@@ -15,6 +15,7 @@ struct LightWeight {
     Vec3 color{1};
 
     Vec3 weight() const { return intensity * color; }
+    bool operator==(const LightWeight&) const = default;
 };
 
 struct LightMixer {

@@ -15,6 +15,13 @@ void SceneLoader::join() {
     busy_ = false;
 }
 
+void SceneLoader::cancel() {
+    join();
+    ready_ = false;
+    const std::lock_guard lock(state_mutex_);
+    preview_.reset();
+}
+
 void SceneLoader::start(Task task) {
     join();
     cancel_ = false;

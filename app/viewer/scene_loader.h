@@ -30,6 +30,7 @@ class SceneLoader {
 
     // Cancels what runs, whose result is dropped, and starts the task.
     void start(Task task);
+    void cancel();
     bool busy() const { return busy_; }
 
     struct State {

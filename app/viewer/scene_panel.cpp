@@ -14,11 +14,9 @@ std::string name_or(const std::string& name, const char* kind, uint32_t index) {
     return name.empty() ? fmt::format("{} {}", kind, index) : name;
 }
 
-// A slider whose edits begin where its dragging does.
+// Sliders, and whether one was moved.
 class Editor {
   public:
-    explicit Editor(bool continues) : continues_(continues) {}
-
     bool slider(const char* label, float& value, float low, float high, const char* format = "%.2f",
                 ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp) {
         const bool changed = ImGui::SliderFloat(label, &value, low, high, format, flags);
@@ -28,10 +26,9 @@ class Editor {
     void color(const char* label, Vec3& value) { changed_ |= color_field(label, value); }
     void check(const char* label, bool& value) { changed_ |= ImGui::Checkbox(label, &value); }
     bool changed() const { return changed_; }
-    bool begins() const { return changed_ && !continues_; }
 
   private:
-    bool continues_, changed_ = false;
+    bool changed_ = false;
 };
 
 // Layers whose compilation needs more than factors (tangents, bodies) only where the file has them.
@@ -131,8 +128,7 @@ void draw_node(const Scene& scene, uint32_t index, ViewerModel& model) {
 }  // namespace
 
 void edit_section(ViewerModel& model, PanelEdits& edits) {
-    const Editable before{model.materials, model.punctual_lights, model.view};
-    Editor editor(model.edit_continues);
+    Editor editor;
     // What was clicked at is at hand.
     if (model.inspection) ImGui::SetNextItemOpen(true, ImGuiCond_Once);
     if (!model.materials.empty() && ImGui::CollapsingHeader("Material")) {
@@ -164,7 +160,6 @@ void edit_section(ViewerModel& model, PanelEdits& edits) {
         edit_light(model.punctual_lights[model.edited_light], editor);
     }
     edits.scene_edited = editor.changed();
-    if (editor.begins()) edits.before_edit = before;
     const Scene& scene = *model.job.world->scene;
     if (!scene.roots.empty() && ImGui::CollapsingHeader("Scene tree")) {
         for (const NodeId root : scene.roots)

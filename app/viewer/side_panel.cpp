@@ -197,10 +197,9 @@ PanelEdits draw_side_panel(ViewerModel& model) {
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
     ImGui::PushItemWidth(0.55f * width);
-    const OrbitView view = model.view;
+    Editable before = editable_of(model);
     open_section(model, edits);
     camera_section(model, edits);
-    const bool lens_begins = edits.view && !model.edit_continues;
     views_section(model, edits);
     light_section(model, edits);
     lights_section(model, edits);
@@ -212,8 +211,14 @@ PanelEdits draw_side_panel(ViewerModel& model) {
     scene_section(model, edits);
     validation_section(edits);
     window_section(model, edits);
-    if (lens_begins) edits.before_edit = Editable{model.materials, model.punctual_lights, view, false};
-    model.edit_continues = ImGui::IsAnyItemActive();
+    // A step of the history is what there was before the first change of a drag, which may come after its beginning.
+    const bool changed = edits.scene_edited || edits.view || edits.environment || edits.settings || edits.tone ||
+                         edits.light_weights.has_value();
+    if (changed && !model.edit_continues) {
+        before.scene = edits.scene_edited;
+        edits.before_edit = std::move(before);
+    }
+    model.edit_continues = ImGui::IsAnyItemActive() && (model.edit_continues || changed);
     ImGui::PopItemWidth();
     ImGui::End();
     return edits;

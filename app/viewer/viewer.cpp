@@ -109,8 +109,11 @@ void Viewer::open_validation_scene(size_t index) {
     start_load(options, false);
 }
 
-void Viewer::start_load(RenderOptions options, bool keep_view) {
+void Viewer::start_load(RenderOptions options, bool keep_view, bool is_step, std::optional<Editable> restored) {
     options.resolution = size_.pixels;
+    restored_ = std::move(restored);
+    load_is_step_ = is_step;
+    wanted_variant_.reset();
     load_keeps_view_ = keep_view;
     load_is_ = LoadKind::scene;
     environment_dirty_ = false;
@@ -119,7 +122,7 @@ void Viewer::start_load(RenderOptions options, bool keep_view) {
     model_.loading_name = file_name(options.scene);
     load_is_previewed_ = false;
     // A scene that is read again looks better as it is than without its pictures.
-    const bool previews = viewer_options_.previews && !keep_view;
+    const bool previews = viewer_options_.previews && !keep_view && !restored_;
     loader_.start([options, previews, prepare = viewer_options_.prepare](const SceneLoader::Progress& progress,
                                                                          const SceneLoader::ShowPreview& show,
                                                                          const std::atomic<bool>* cancel) {
@@ -141,6 +144,7 @@ void Viewer::start_environment_change() {
     }
     environment_dirty_ = false;
     load_is_ = LoadKind::environment;
+    load_is_step_ = !read_from.empty();
     loader_.start([options, job = model_.job, read = !read_from.empty()](const SceneLoader::Progress& progress,
                                                                          const SceneLoader::ShowPreview&,
                                                                          const std::atomic<bool>*) {
@@ -153,15 +157,16 @@ void Viewer::start_environment_change() {
 }
 
 // The scene stays in memory: only which material each primitive has changes.
-void Viewer::start_variant_change(std::optional<uint32_t> variant) {
+void Viewer::start_variant_change(std::optional<uint32_t> variant, bool is_step) {
     RenderOptions options = model_.options;
     const Scene& scene = *model_.job.world->scene;
     options.variant = variant ? scene.variant_names[*variant] : std::string();
     // Of a scene that is not all there nothing could be kept.
     if (before_preview_) {
-        start_load(options, true);
+        start_load(options, true, is_step);
         return;
     }
+    load_is_step_ = is_step;
     load_keeps_view_ = true;
     load_is_ = LoadKind::variant;
     environment_dirty_ = false;
@@ -191,6 +196,7 @@ void Viewer::take_preview() {
 }
 
 void Viewer::bring_back() {
+    if (load_is_step_) history_.forget_last();
     Shown shown = std::move(*before_preview_);
     before_preview_.reset();
     load_is_previewed_ = false;
@@ -231,6 +237,7 @@ void Viewer::take_loaded() {
             shown_pose_ = making_pose_;
         }
         if (before_preview_ && load_is_ == LoadKind::scene) bring_back();
+        restored_.reset();
         return;
     }
     RenderJob& job = result->scene->job;
@@ -263,6 +270,8 @@ void Viewer::take_loaded() {
 // A new scene: its camera unless the person's view is to stay. The pivot is what the middle of the picture shows.
 void Viewer::show_scene(LoadedScene loaded) {
     redraws_ = 2;
+    const bool keeps_history = load_keeps_view_ || load_is_step_ || restored_;
+    if (load_is_step_) add_step(editable_with(model_.view));
     model_.options = std::move(loaded.options);
     model_.job = std::move(loaded.job);
     if (!load_keeps_view_) {
@@ -284,10 +293,15 @@ void Viewer::show_scene(LoadedScene loaded) {
             if (world.scene->cameras[i].camera.world_from_camera == camera.world_from_camera) followed_camera_ = i;
         }
     }
-    if (load_keeps_view_) {
+    if (keeps_history) {
         adopt_scene();
     } else {
         forget_edits();
+    }
+    if (restored_) {
+        Editable there = std::move(*std::exchange(restored_, std::nullopt));
+        there.scene = true;
+        restore(std::move(there));
     }
     if (load_is_ == LoadKind::scene) start_playback();
     if (model_.notice_is_error) model_.notice.clear();
@@ -295,6 +309,7 @@ void Viewer::show_scene(LoadedScene loaded) {
 }
 
 void Viewer::take_environment(const LoadedScene& loaded) {
+    if (load_is_step_) add_step(editable_with(model_.view));
     model_.job.world = loaded.job.world;
     model_.job.environment = loaded.job.environment;
     model_.options.hdri = loaded.options.hdri;
@@ -403,6 +418,8 @@ bool Viewer::update() {
     take_preview();
     take_loaded();
     if (environment_dirty_ && !loader_.busy() && model_.has_scene()) start_environment_change();
+    if (wanted_variant_ && !loader_.busy() && !scene_dirty_ && model_.has_scene())
+        start_variant_change(*std::exchange(wanted_variant_, std::nullopt), false);
     if (!loader_.busy() && pose_is_wanted()) start_pose();
     if (scene_dirty_ && !loader_.busy() && !before_preview_ && model_.has_scene()) start_scene_edit();
     if (dirty_) submit();
@@ -478,7 +495,11 @@ void Viewer::apply(const PanelEdits& edits) {
     if (edits.store_bookmark) store_bookmark(*edits.store_bookmark);
     if (edits.recall_bookmark) recall_bookmark(*edits.recall_bookmark);
     if (edits.step_view != 0) step_view(edits.step_view);
-    if (edits.before_edit) history_.add(*edits.before_edit);
+    if (edits.before_edit) {
+        Editable before = *edits.before_edit;
+        if (!environment_is_made()) before.world = nullptr;
+        add_step(std::move(before));
+    }
     if (edits.scene_edited) scene_dirty_ = true;
     if (edits.environment_file) dropped_environment_ = *edits.environment_file;
     if (edits.environment || edits.environment_file) environment_dirty_ = true;
@@ -502,14 +523,17 @@ void Viewer::apply(const PanelEdits& edits) {
     if (edits.write_sequence) write_sequence(*edits.write_sequence);
     if (edits.stop_sequence) writer_.stop();
     if (edits.frame_all) frame_everything();
-    if (edits.camera) show_file_camera(*edits.camera);
+    if (edits.camera) {
+        add_step(editable_with(model_.view));
+        show_file_camera(*edits.camera);
+    }
     if (edits.scene) {
         RenderOptions options = model_.options;
         options.scene = model_.job.scene_path;
         options.scene_index = edits.scene;
-        start_load(options, false);
+        start_load(options, false, true);
     }
-    if (edits.variant) start_variant_change(*edits.variant);
+    if (edits.variant) start_variant_change(*edits.variant, true);
     if (edits.validation_scene) open_validation_scene(*edits.validation_scene);
     if (edits.view || edits.settings || edits.environment || edits.tone || edits.style || edits.map ||
         edits.toggle_pause)
@@ -517,7 +541,8 @@ void Viewer::apply(const PanelEdits& edits) {
 }
 
 bool Viewer::finished() const {
-    if (loader_.busy() || dirty_ || scene_dirty_ || environment_dirty_ || pose_is_wanted()) return false;
+    if (loader_.busy() || dirty_ || scene_dirty_ || environment_dirty_ || wanted_variant_ || pose_is_wanted())
+        return false;
     if (map_is_missing() || weighing_is_missing()) return false;
     if (model_.denoises && model_.has_scene() && !denoised_->is_last(model_.status)) return false;
     if (reference_is_missing() || inspection_is_missing()) return false;

@@ -99,9 +99,11 @@ class Viewer {
     enum class DragMode : uint8_t { none, orbit, look, pan, dolly, environment, wipe };
 
     RenderOptions options_for(const std::string& path) const;
-    void start_load(RenderOptions options, bool keep_view);
+    // is_step: it can be undone; restored: what is edited then.
+    void start_load(RenderOptions options, bool keep_view, bool is_step = false,
+                    std::optional<Editable> restored = std::nullopt);
     void start_environment_change();
-    void start_variant_change(std::optional<uint32_t> variant);
+    void start_variant_change(std::optional<uint32_t> variant, bool is_step);
     void take_preview();
     void take_loaded();
     void show_scene(LoadedScene loaded);
@@ -153,7 +155,12 @@ class Viewer {
     void save_image(const std::string& path, const Frame& frame, bool denoised) const;
     void toggle_background();
     void toggle_pause();
-    Editable editable() const;
+    Editable editable_with(const OrbitView& view) const;
+    bool environment_is_made() const;  // it is that of the options
+    enum class StepKind : uint8_t { single, exposure };
+    void add_step(Editable before, StepKind kind = StepKind::single);
+    void restore(Editable there);
+    void restore_environment(const Editable& there);
     void adopt_scene();
     void forget_edits();
     void undo_edit(bool redo);
@@ -216,6 +223,12 @@ class Viewer {
     EditHistory history_;
     bool scene_dirty_ = false;  // materials or lights have to be compiled
     OrbitView view_before_drag_, view_before_flight_;
+    std::optional<Editable> before_turn_;  // of the environment, which is being dragged
+    StepKind last_step_ = StepKind::single;
+    double last_step_s_ = 0;
+    bool load_is_step_ = false;         // of the history, once it is there
+    std::optional<Editable> restored_;  // once its scene is there
+    std::optional<std::optional<uint32_t>> wanted_variant_;
     OrbitView scrolled_view_;  // by the wheel, at last_scroll_s_
     double last_scroll_s_ = 0;
     Flight flight_;

@@ -62,8 +62,7 @@ bool Viewer::fly_by(const KeyPressed& event) {
 }
 
 void Viewer::remember_flight() {
-    if (model_.view != view_before_flight_)
-        history_.add({model_.materials, model_.punctual_lights, view_before_flight_, false});
+    if (model_.view != view_before_flight_) add_step(editable_with(view_before_flight_));
 }
 
 void Viewer::end_flight() {
@@ -92,7 +91,7 @@ void Viewer::paste_view(const std::string& text) {
         return;
     }
     if (model_.notice_is_error) model_.notice.clear();
-    history_.add({model_.materials, model_.punctual_lights, model_.view, false});
+    add_step(editable_with(model_.view));
     model_.display.tone = pasted->tone;
     set_view(pasted->view);
     redraws_ = 2;

@@ -96,8 +96,10 @@ void Viewer::handle_mouse_press(const MousePressed& event) {
         // Strokes that follow each other from the same place are no double-click.
         if (!stayed) last_click_s_ = never;
         drag_ = DragMode::none;
-        if (model_.view != view_before_drag_)
-            history_.add({model_.materials, model_.punctual_lights, view_before_drag_, false});
+        if (model_.view != view_before_drag_) add_step(editable_with(view_before_drag_));
+        if (before_turn_ && before_turn_->environment.rotation_degrees != model_.options.hdri_rotation_degrees)
+            add_step(std::move(*before_turn_));
+        before_turn_.reset();
         if (clicked) inspect_at(cursor_);
         return;
     }
@@ -117,6 +119,7 @@ void Viewer::handle_mouse_press(const MousePressed& event) {
         if (drag_ == DragMode::environment && model_.job.environment == nullptr) {
             notify("there is no environment to turn; drop an .hdr or .exr file");
         }
+        if (drag_ == DragMode::environment) before_turn_ = editable_with(model_.view);
         const Vec2 uv = film_uv_of(cursor_);
         drag_anchor_ = pick(uv).value_or(point_at_pivot_distance(model_.view, aspect(), uv));
     } else if (modifiers.ctrl && modifiers.shift) {
@@ -183,7 +186,7 @@ void Viewer::handle_scroll(float steps) {
     set_view(dolly(model_.view, anchor, std::pow(dolly_per_step, steps), aspect()));
     const double now = now_s();
     const bool goes_on = before == scrolled_view_ && now - last_scroll_s_ < scroll_pause_s;
-    if (!goes_on && model_.view != before) history_.add({model_.materials, model_.punctual_lights, before, false});
+    if (!goes_on && model_.view != before) add_step(editable_with(before));
     last_scroll_s_ = now;
     scrolled_view_ = model_.view;
 }
@@ -262,6 +265,7 @@ void Viewer::handle_key(const KeyPressed& event) {
             model_.show_statistics = !model_.show_statistics;
             return;
         case Key::t:
+            add_step(editable_with(model_.view));
             model_.display.tone.curve = static_cast<ToneCurve>((static_cast<int>(model_.display.tone.curve) + 1) % 4);
             notify(fmt::format("tone curve {}", name_of(model_.display.tone.curve)));
             return;
@@ -301,6 +305,7 @@ void Viewer::handle_key(const KeyPressed& event) {
 
 void Viewer::handle_view_key(Key key) {
     if (!model_.has_scene()) return;
+    const OrbitView before = model_.view;
     switch (key) {
         case Key::digit_1:
             set_view(look_from(model_.view, AxisView::front));
@@ -329,6 +334,7 @@ void Viewer::handle_view_key(Key key) {
         default:
             break;
     }
+    if (model_.view != before) add_step(editable_with(before));
 }
 
 void Viewer::show_file_camera(uint32_t index) {
@@ -345,12 +351,18 @@ void Viewer::show_file_camera(uint32_t index) {
 }
 
 void Viewer::frame_everything() {
-    if (model_.has_scene()) set_view(frame_all(model_.view, model_.job.world->bounds, aspect()));
+    if (!model_.has_scene()) return;
+    const OrbitView before = model_.view;
+    set_view(frame_all(model_.view, model_.job.world->bounds, aspect()));
+    if (model_.view != before) add_step(editable_with(before));
 }
 
 void Viewer::change_exposure(float ev) {
     float& exposure = model_.display.tone.exposure_ev;
-    exposure = std::clamp(exposure + ev, -20.0f, 20.0f);
+    const float changed = std::clamp(exposure + ev, -20.0f, 20.0f);
+    if (changed == exposure) return;
+    add_step(editable_with(model_.view), StepKind::exposure);
+    exposure = changed;
 }
 
 void Viewer::toggle_pause() {
@@ -366,6 +378,7 @@ void Viewer::toggle_pause() {
 
 // The environment as background, or plain grey behind what it lights.
 void Viewer::toggle_background() {
+    add_step(editable_with(model_.view));
     IntegratorSettings& settings = model_.options.integrator;
     if (settings.background == BackgroundKind::environment) {
         settings.background = BackgroundKind::color;

@@ -73,7 +73,7 @@ struct ViewerModel {
     std::vector<PunctualLight> punctual_lights;
     uint32_t edited_material = 0, edited_light = 0;  // that the panel shows
     std::vector<std::string> environment_files;      // that the panel offers
-    bool edit_continues = false;                     // something is being dragged: no new step of the history
+    bool edit_continues = false;                     // what is being dragged has its step of the history
     std::optional<Inspection> inspection;            // of the pixel that was clicked at
 
     SequenceSettings sequence;
@@ -107,6 +107,9 @@ struct ViewerModel {
 
     bool has_scene() const { return job.world != nullptr; }
 };
+
+// What there is to be edited, as it is now.
+Editable editable_of(const ViewerModel& model);
 
 // What a panel has changed.
 struct PanelEdits {

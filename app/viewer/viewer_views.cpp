@@ -36,6 +36,7 @@ void Viewer::recall_bookmark(size_t digit) {
         notify(fmt::format("no view is stored as {0}: Ctrl+{0} stores one", digit));
         return;
     }
+    add_step(editable_with(model_.view));
     model_.display.tone = bookmark->tone;
     set_view(bookmark->view);
     redraws_ = 2;
@@ -47,6 +48,7 @@ void Viewer::step_view(int by) {
     if (!view_history_.can_step(1)) view_history_.add(model_.view);
     if (const std::optional<OrbitView> view = view_history_.step(by)) {
         steps_history_ = true;
+        add_step(editable_with(model_.view));
         set_view(*view);
     } else {
         notify(by < 0 ? "there is no view before this one" : "there is no view after this one");

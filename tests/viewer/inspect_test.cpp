@@ -111,7 +111,7 @@ TEST_F(ViewerTest, EditsOfMaterialsKeepTheGeometryAndAreUndone) {
     // As the panel leaves it: the first step of a drag, and another of the same.
     ViewerModel& edited = const_cast<ViewerModel&>(model());
     PanelEdits edits;
-    edits.before_edit = Editable{edited.materials, edited.punctual_lights, edited.view};
+    edits.before_edit = editable_of(edited);
     edits.scene_edited = true;
     for (Material& material : edited.materials)
         material.base_color_factor = Vec4(0.1f, 0.1f, 0.9f, 1);
