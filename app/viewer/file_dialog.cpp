@@ -85,18 +85,19 @@ std::vector<std::string> dialog_command(DialogPurpose purpose, const std::string
     const bool scene = purpose == DialogPurpose::scene;
     const std::string title = scene ? "Open a scene or an environment" : "Open a reference picture";
     const std::string patterns = scene ? "*.gltf *.glb *.hdr *.exr" : "*.exr *.hdr *.png";
+    const std::string kinds = scene ? "scenes and environments" : "pictures";
     // A folder ends in a slash: zenity would take its name for a file's.
     const std::string where = folder.empty() ? "./" : folder + "/";
     const std::string zenity = find_program("zenity", path), kdialog = find_program("kdialog", path);
     const bool kde = desktop != nullptr && std::string_view(desktop).find("KDE") != std::string_view::npos;
     if (!kdialog.empty() && (kde || zenity.empty()))
-        return {kdialog, "--title", title, "--getopenfilename", where, title + " (" + patterns + ")"};
+        return {kdialog, "--title", title, "--getopenfilename", where, kinds + " (" + patterns + ")|all files (*)"};
     if (zenity.empty()) return {};
     return {zenity,
             "--file-selection",
             "--title=" + title,
             "--filename=" + where,
-            "--file-filter=" + patterns,
+            "--file-filter=" + kinds + " | " + patterns,
             "--file-filter=all files | *"};
 }
 

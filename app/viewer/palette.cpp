@@ -43,6 +43,8 @@ void apply_theme(Theme theme, float scale) {
     style.ScrollbarSize = 12;
     ImVec4* colors = style.Colors;
     colors[ImGuiCol_WindowBg] = colors[ImGuiCol_PopupBg] = palette.panel;
+    // Lists open over words, which must not be read through them.
+    colors[ImGuiCol_PopupBg].w = 1;
     colors[ImGuiCol_FrameBg] = colors[ImGuiCol_Button] = colors[ImGuiCol_Header] = palette.field;
     for (const ImGuiCol each : {ImGuiCol_FrameBgHovered, ImGuiCol_ButtonHovered, ImGuiCol_HeaderHovered,
                                 ImGuiCol_FrameBgActive, ImGuiCol_ButtonActive, ImGuiCol_HeaderActive})

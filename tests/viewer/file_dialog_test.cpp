@@ -58,6 +58,16 @@ TEST_F(Dialogs, TheDesktopsOwnComesFirst) {
     EXPECT_TRUE(dialog_command(DialogPurpose::scene, "", ".:relative:", nullptr).empty());
 }
 
+// A file whose extension is in capitals is chosen among all of them.
+TEST_F(Dialogs, EachOffersItsKindsAndAllFiles) {
+    make_program("kdialog", "");
+    EXPECT_EQ(command().back(), "scenes and environments (*.gltf *.glb *.hdr *.exr)|all files (*)");
+    make_program("zenity", "");
+    const std::vector<std::string> words = command();
+    EXPECT_EQ(words[words.size() - 2], "--file-filter=scenes and environments | *.gltf *.glb *.hdr *.exr");
+    EXPECT_EQ(words.back(), "--file-filter=all files | *");
+}
+
 TEST_F(Dialogs, TheFileThatWasChosenComesBackWhateverItsName) {
     // No shell sees the words: what it would run stays a name.
     make_program(
