@@ -39,7 +39,9 @@ ExitStatus run_view(const RenderOptions& requested, const RememberedSettings& re
         Viewer viewer(options, window, viewer_options);
         Desktop desktop(
             {settings_path(), remembered, options.watch, [&](const std::string& text) { window.set_clipboard(text); },
-             [](const std::string& line) { fmt::print(stderr, "candela: warning: {}\n", line); }},
+             [](const std::string& line) { fmt::print(stderr, "candela: warning: {}\n", line); },
+             // A recording has no bookmarks but those that are stored in it.
+             options.record.empty() ? bookmarks_path() : std::filesystem::path()},
             viewer, window.extent());
         std::string title = "candela";
         std::string reported;

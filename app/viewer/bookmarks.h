@@ -15,6 +15,8 @@ namespace candela {
 struct Bookmark {
     OrbitView view;
     ToneSettings tone;
+
+    bool operator==(const Bookmark&) const = default;
 };
 
 using Bookmarks = std::array<std::optional<Bookmark>, 10>;  // by the digit of their key

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "app/viewer/configuration_file.h"
+
 namespace candela {
 
 namespace {
@@ -83,7 +85,36 @@ void Desktop::serve(Viewer& viewer, Vec2u window_extent) {
                         false);
     }
     remember_scene(viewer, window_extent);
+    remember_bookmarks(viewer);
     watch_files(viewer);
+}
+
+// A scene gets its bookmarks when it is first seen; what is stored after that is written at once.
+void Desktop::remember_bookmarks(Viewer& viewer) {
+    const ViewerModel& model = viewer.model();
+    if (options_.bookmarks_file.empty() || !model.has_scene()) return;
+    std::string warning;
+    if (model.job.scene_path != bookmarked_scene_) {
+        bookmarked_scene_ = model.job.scene_path;
+        const RememberedBookmarks all = read_bookmarks(options_.bookmarks_file, warning);
+        if (!warning.empty()) options_.warn(warning);
+        viewer.offer_bookmarks(bookmarks_of(all, bookmark_key(bookmarked_scene_), {model.view, model.display.tone}));
+        bookmarks_ = model.bookmarks;
+        return;
+    }
+    const std::string key = bookmark_key(bookmarked_scene_);
+    if (model.bookmarks == bookmarks_ || key.empty()) return;
+    // Another window may have written since.
+    RememberedBookmarks all = read_bookmarks(options_.bookmarks_file, warning);
+    if (!warning.empty()) keep_broken(options_.bookmarks_file);
+    add_changes(all, key, bookmarks_, model.bookmarks);
+    bookmarks_ = model.bookmarks;
+    try {
+        write_bookmarks(options_.bookmarks_file, all);
+    } catch (const CommandError& error) {
+        options_.warn(error.what());
+        options_.bookmarks_file.clear();
+    }
 }
 
 // As soon as it is open, so that it is remembered whatever happens next.

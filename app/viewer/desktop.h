@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "app/viewer/file_watch.h"
+#include "app/viewer/remembered_bookmarks.h"
 #include "app/viewer/remembered_settings.h"
 #include "app/viewer/viewer.h"
 
@@ -19,6 +20,7 @@ class Desktop {
         bool watch = false;                   // the scene's files
         std::function<void(const std::string&)> set_clipboard;
         std::function<void(const std::string&)> warn;  // a line for the person at the terminal
+        std::filesystem::path bookmarks_file = {};     // empty: they end with the window
     };
     // The viewer must be as the options left it.
     Desktop(Options options, Viewer& viewer, Vec2u window_extent);
@@ -34,12 +36,15 @@ class Desktop {
 
   private:
     void remember_scene(Viewer& viewer, Vec2u window_extent);
+    void remember_bookmarks(Viewer& viewer);
     void watch_files(const Viewer& viewer);
 
     Options options_;
     RememberedSettings before_;  // as the window was when it was last remembered
     std::vector<std::string> opened_;
     std::string shown_scene_;
+    std::string bookmarked_scene_;  // whose bookmarks have been read
+    Bookmarks bookmarks_;           // as they are in the file
     FileDialog dialog_;
     std::optional<InputEvent> answered_;
     FileWatch files_;

@@ -2,13 +2,10 @@
 #include "app/viewer/remembered_settings.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "app/exit_status.h"
+#include "app/viewer/configuration_file.h"
 
 namespace candela {
 
@@ -17,15 +14,10 @@ namespace {
 using nlohmann::json;
 
 constexpr size_t most_recent = 10;
-constexpr std::streamsize largest_file = 1 << 18;
+constexpr size_t largest_file = 1 << 18;
 constexpr float largest_exposure_ev = 20;
 constexpr unsigned smallest_window = 64, largest_window = 16384;
 constexpr ToneCurve curves[] = {ToneCurve::linear, ToneCurve::neutral, ToneCurve::aces, ToneCurve::agx};
-
-// What is wrong with the file.
-struct Broken {
-    std::string why;
-};
 
 const json* member(const json& object, const char* name) {
     const auto found = object.find(name);
@@ -35,12 +27,12 @@ const json* member(const json& object, const char* name) {
 float number(const json& value, const char* name, float low, float high) {
     const double found = value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
     if (!(found >= static_cast<double>(low) && found <= static_cast<double>(high)))
-        throw Broken{fmt::format("{} is no number from {} to {}", name, low, high)};
+        throw BrokenFile{fmt::format("{} is no number from {} to {}", name, low, high)};
     return static_cast<float>(found);
 }
 
 bool truth(const json& value, const char* name) {
-    if (!value.is_boolean()) throw Broken{fmt::format("{} is neither true nor false", name)};
+    if (!value.is_boolean()) throw BrokenFile{fmt::format("{} is neither true nor false", name)};
     return value.get<bool>();
 }
 
@@ -49,12 +41,12 @@ Value one_of(const json& value, const char* name, const Values& values) {
     for (const Value each : values) {
         if (value.is_string() && value.get_ref<const std::string&>() == name_of(each)) return each;
     }
-    throw Broken{fmt::format("{} is none of its words", name)};
+    throw BrokenFile{fmt::format("{} is none of its words", name)};
 }
 
 // Members that are not known are a newer version's.
 RememberedSettings settings_from(const json& document) {
-    if (!document.is_object()) throw Broken{"it is no JSON object"};
+    if (!document.is_object()) throw BrokenFile{"it is no JSON object"};
     RememberedSettings out;
     if (const json* v = member(document, "exposure_ev"))
         out.tone.exposure_ev = number(*v, "exposure_ev", -largest_exposure_ev, largest_exposure_ev);
@@ -66,76 +58,40 @@ RememberedSettings settings_from(const json& document) {
     if (const json* v = member(document, "panels")) out.panels = truth(*v, "panels");
     if (const json* v = member(document, "statistics")) out.statistics = truth(*v, "statistics");
     if (const json* v = member(document, "window")) {
-        if (!v->is_array() || v->size() != 2) throw Broken{"window is no pair of numbers"};
+        if (!v->is_array() || v->size() != 2) throw BrokenFile{"window is no pair of numbers"};
         const auto side = [&](size_t i) {
             return static_cast<unsigned>(number((*v)[i], "window", smallest_window, largest_window));
         };
         out.window = Vec2u(side(0), side(1));
     }
     if (const json* v = member(document, "recent")) {
-        if (!v->is_array()) throw Broken{"recent is no list"};
+        if (!v->is_array()) throw BrokenFile{"recent is no list"};
         for (const json& each : *v) {
-            if (!each.is_string()) throw Broken{"recent lists what is no path"};
+            if (!each.is_string()) throw BrokenFile{"recent lists what is no path"};
             if (out.recent.size() < most_recent) out.recent.push_back(each.get<std::string>());
         }
     }
     return out;
 }
 
-std::filesystem::path broken_path(const std::filesystem::path& path) {
-    return path.string() + ".broken";
-}
-
-bool is_utf8(const std::string& text) {
-    try {
-        return !json(text).dump().empty();
-    } catch (const json::exception&) {
-        return false;
-    }
-}
-
 }  // namespace
 
 std::filesystem::path settings_path() {
-    const auto folder = [](const char* variable) {
-        const char* value = std::getenv(variable);
-        // The specification has relative paths ignored.
-        return value != nullptr && value[0] == '/' ? std::filesystem::path(value) : std::filesystem::path();
-    };
-    const std::filesystem::path configured = folder("XDG_CONFIG_HOME"), home = folder("HOME");
-    if (!configured.empty()) return configured / "candela" / "settings.json";
-    if (!home.empty()) return home / ".config" / "candela" / "settings.json";
-    return {};
+    return configuration_path("settings.json");
 }
 
 RememberedSettings read_settings(const std::filesystem::path& path, std::string& warning) {
     warning.clear();
-    if (path.empty()) return {};
-    std::error_code error;
-    if (!std::filesystem::exists(path, error)) return {};
     try {
-        // A pipe or a device would never end.
-        if (!std::filesystem::is_regular_file(path, error)) throw Broken{"it is no file"};
-        std::ifstream file(path, std::ios::binary);
-        std::string text(static_cast<size_t>(largest_file) + 1, '\0');
-        file.read(text.data(), static_cast<std::streamsize>(text.size()));
-        if (!file.is_open() || file.bad()) throw Broken{"it cannot be read"};
-        text.resize(static_cast<size_t>(file.gcount()));
-        if (file.gcount() > largest_file) throw Broken{"it is far too large"};
-        const json document = json::parse(text, nullptr, false);
-        if (document.is_discarded()) throw Broken{"it is no JSON"};
+        const std::optional<std::string> text = read_configuration(path, largest_file);
+        if (!text) return {};
+        const json document = json::parse(*text, nullptr, false);
+        if (document.is_discarded()) throw BrokenFile{"it is no JSON"};
         return settings_from(document);
-    } catch (const Broken& broken) {
-        warning =
-            fmt::format("{}: {}; what it remembers is left out; mend it before this window closes, or find it as {}",
-                        path.string(), broken.why, broken_path(path).filename().string());
+    } catch (const BrokenFile& broken) {
+        warning = words_of(path, broken);
         return {};
     }
-}
-
-void keep_broken(const std::filesystem::path& path) {
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::rename(path, broken_path(path), ignored);
 }
 
 void write_settings(const std::filesystem::path& path, const RememberedSettings& settings) {
@@ -147,20 +103,7 @@ void write_settings(const std::filesystem::path& path, const RememberedSettings&
                      {"statistics", settings.statistics}};
     if (settings.window) document["window"] = {settings.window->x, settings.window->y};
     document["recent"] = settings.recent;
-
-    // One window's file does not mix with another's, and a reader sees the old one or the new one.
-    const std::filesystem::path beside = path.string() + fmt::format(".{}", getpid());
-    std::error_code error;
-    std::filesystem::create_directories(path.parent_path(), error);
-    std::ofstream file(beside, std::ios::binary | std::ios::trunc);
-    file << document.dump(2) << "\n";
-    file.close();
-    if (file) std::filesystem::rename(beside, path, error);
-    if (!file || error) {
-        std::error_code ignored;
-        std::filesystem::remove(beside, ignored);
-        throw CommandError(ExitStatus::unwritable_output, path.string() + ": the settings cannot be written");
-    }
+    write_configuration(path, document.dump(2) + "\n", "the settings");
 }
 
 RememberedSettings with_changes(const RememberedSettings& stored, const RememberedSettings& at_start,

@@ -28,9 +28,6 @@ std::filesystem::path settings_path();
 // The defaults where there is no file, and where there is one that is not what it should be: then warning is a line
 // that says why.
 RememberedSettings read_settings(const std::filesystem::path& path, std::string& warning);
-// Before another is written over a file that gave a warning: it goes on as settings.json.broken, for there may be work
-// in it.
-void keep_broken(const std::filesystem::path& path);
 // Written beside and renamed; makes the folder. Throws CommandError.
 void write_settings(const std::filesystem::path& path, const RememberedSettings& settings);
 

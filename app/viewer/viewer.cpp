@@ -272,6 +272,7 @@ void Viewer::show_scene(LoadedScene loaded) {
     redraws_ = 2;
     const bool keeps_history = load_keeps_view_ || load_is_step_ || restored_;
     if (load_is_step_) add_step(editable_with(model_.view));
+    const bool is_other_file = loaded.job.scene_path != model_.job.scene_path;
     model_.options = std::move(loaded.options);
     model_.job = std::move(loaded.job);
     if (!load_keeps_view_) {
@@ -286,7 +287,7 @@ void Viewer::show_scene(LoadedScene loaded) {
         } else if (const std::optional<Vec3> middle = pick(Vec2(0.5f))) {
             model_.view.pivot = *middle;
         }
-        forget_views();
+        forget_views(is_other_file);
         next_camera_ = world.scene->cameras.empty() ? 0 : 1;
         followed_camera_.reset();
         for (uint32_t i = 0; i < world.scene->cameras.size(); ++i) {

@@ -64,6 +64,8 @@ class Viewer {
     ViewerRequests take_requests();
     // Scenes that were open before, the last first: what the panel offers.
     void offer_recent(std::vector<std::string> scenes) { model_.recent = std::move(scenes); }
+    // Of the scene that is shown, from before; those that it has stay.
+    void offer_bookmarks(const Bookmarks& bookmarks);
     // Where there is nothing to show by itself: a line over the picture.
     void tell(std::string line, bool is_error) { notify(std::move(line), is_error); }
 
@@ -141,7 +143,7 @@ class Viewer {
     void recall_bookmark(size_t digit);
     void step_view(int by);
     void remember_view();
-    void forget_views();
+    void forget_views(bool bookmarks_too);
 
     void set_view(const OrbitView& view);
     void show_file_camera(uint32_t index);

@@ -64,9 +64,16 @@ void Viewer::remember_view() {
     if (looked_at && !stepped) view_history_.add(left);
 }
 
-void Viewer::forget_views() {
+void Viewer::offer_bookmarks(const Bookmarks& bookmarks) {
+    for (size_t digit = 0; digit < bookmarks.size(); ++digit) {
+        if (!model_.bookmarks[digit]) model_.bookmarks[digit] = bookmarks[digit];
+    }
+    redraws_ = std::max(redraws_, 1);
+}
+
+void Viewer::forget_views(bool bookmarks_too) {
     view_history_.clear();
-    model_.bookmarks = {};
+    if (bookmarks_too) model_.bookmarks = {};
     submitted_view_ = model_.view;
     viewed_since_s_ = now_s();
 }

@@ -16,6 +16,8 @@ enum class ToneCurve : uint8_t { linear, neutral, aces, agx };
 struct ToneSettings {
     float exposure_ev = 0.0f;  // radiance is multiplied by 2^exposure_ev
     ToneCurve curve = ToneCurve::neutral;
+
+    bool operator==(const ToneSettings&) const = default;
 };
 
 std::string_view name_of(ToneCurve curve);

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "app/exit_status.h"
+#include "app/viewer/configuration_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace candela {

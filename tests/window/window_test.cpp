@@ -245,6 +245,7 @@ TEST_F(WindowTest, ARecordedSessionComesBackWithoutAWindow) {
     const std::string replayed = (folder.path() / "replayed.png").string();
     open(asset("cornell_box.glb"), "16", {"--record", recording});
     const ImageRgba8 first = wait_for("the first converged picture", says_done);
+    act("key ctrl+4");
     act(on_window("mousemove") + "100 100 mousedown 1 mousemove_relative 30 0 mousemove_relative 30 10 mouseup 1");
     const ImageRgba8 orbited = wait_for_change("an orbited view", first, 4.0);
     // A slider of the panels: the field of view.
@@ -256,6 +257,9 @@ TEST_F(WindowTest, ARecordedSessionComesBackWithoutAWindow) {
     const ImageRgba8 last = wait_for("the last picture", says_done);
     act("key ctrl+q");
     ASSERT_EQ(candela_->wait_for_exit(10), 0);
+
+    EXPECT_FALSE(std::filesystem::exists(configuration_.path() / "candela" / "bookmarks.json"))
+        << "bookmarks of a recording are its own";
 
     Process replay({CANDELA_PROGRAM, "screenshot", "--replay", recording, "-o", replayed, "--quiet"}, {}, error_file_);
     ASSERT_EQ(replay.wait_for_exit(60), 0);
