@@ -134,6 +134,18 @@ TEST_F(Files, OnlyRegularFilesAreOpened) {
     EXPECT_THROW(load_gltf("/dev/zero", diagnostics), LoadError);
 }
 
+TEST_F(Files, PiecesReadAtOnceAreTheFile) {
+    std::string text;
+    for (uint32_t i = 0; text.size() < (size_t{3} << 20) + 7; ++i)
+        text += std::to_string(i) + ' ';
+    const std::filesystem::path file = write("large", text);
+    constexpr uint64_t all = std::numeric_limits<uint64_t>::max();
+    EXPECT_TRUE(as_text(read_file(file, all, true)) == text);
+    EXPECT_TRUE(as_text(read_file(file)) == text);
+    for (const uint64_t most : {uint64_t{0}, uint64_t{5}, uint64_t{1} << 19, (uint64_t{1} << 20) + 1})
+        EXPECT_TRUE(as_text(read_file(file, most, true)) == text.substr(0, most)) << most;
+}
+
 TEST_F(Files, DataUris) {
     EXPECT_EQ(as_text(decode_data_uri("data:text/plain;base64,aGVsbG8=")), "hello");
     EXPECT_EQ(as_text(decode_data_uri("data:application/octet-stream;base64,aGVsbG8")), "hello");
