@@ -26,7 +26,7 @@ std::string shortened(const std::string& text, float width, const std::function<
         do {
             --length;
         } while (length > 0 && !begins_letter(text[length]));
-        const std::string out = text.substr(0, length) + ellipsis;
+        std::string out = text.substr(0, length) + ellipsis;
         if (width_of(out) <= width) return out;
     }
     return "";
