@@ -20,6 +20,9 @@ TEST(Fields, NamesAreShortenedBetweenLetters) {
     EXPECT_EQ(shortened("ab", 1, letters), "\u2026");
     EXPECT_EQ(shortened("ab", 0.5f, letters), "");
     EXPECT_EQ(shortened("", 0, letters), "");
+    // Half a letter would fit.
+    const auto bytes = [](const std::string& text) { return static_cast<float>(text.size()); };
+    EXPECT_EQ(shortened("\u00fc\u00fc\u00fc\u00fc", 6, bytes), "\u00fc\u2026");
 }
 
 }  // namespace
