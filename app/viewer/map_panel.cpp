@@ -108,11 +108,11 @@ void draw_wipe(const ViewerModel& model) {
     if (right - x > title_width + 2 * unit) label(draw, title.c_str(), x + unit, top(x + 0.6f * unit), 0);
 }
 
-void draw_legend(const ViewerModel& model, bool beside_readings) {
-    if (!model.map.shown || !model.has_scene() || !has_room_beside_panels(model)) return;
+PanelArea draw_legend(const ViewerModel& model, bool beside_readings) {
+    if (!model.map.shown || !model.has_scene() || !has_room_beside_panels(model)) return {};
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float unit = ImGui::GetFontSize();
-    if (model.reference && model.reference->held) return;
+    if (model.reference && model.reference->held) return {};
     const std::optional<ReferenceMetric> metric = model.map.metric;
     const bool is_difference = metric == ReferenceMetric::signed_difference;
     const bool is_error = metric ? is_difference : model.map.map == PixelMap::error;
@@ -161,7 +161,9 @@ void draw_legend(const ViewerModel& model, bool beside_readings) {
                       ImGui::GetColorU32(ImGuiCol_Text), words.c_str());
     }
     ImGui::Dummy({width, height + 1.4f * unit});
+    const PanelArea now = current_panel_area();
     ImGui::End();
+    return now;
 }
 
 }  // namespace candela

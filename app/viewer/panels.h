@@ -38,11 +38,17 @@ void draw_convergence(const ViewerModel& model);
 void draw_badge(const ViewerModel& model);
 // "relMSE 0.0123": the number of that measure over all pixels.
 std::string metric_words(ReferenceMetric metric, const ImageDifference& difference);
+// Of statistics, readings and legend; those that are not shown are empty.
+using TakenAreas = std::array<PanelArea, 3>;
 // The pixel that was clicked at, beside an area that is taken; where it stood in the frame before, and stands now.
-PanelArea draw_pixel_panel(const ViewerModel& model, const PanelArea& taken, const PanelArea& before);
+PanelArea draw_pixel_panel(const ViewerModel& model, const TakenAreas& taken, const PanelArea& before);
 // The first corner of the room, (1, 1) at the bottom right, where a panel of that size hides neither the pixel nor what
 // is taken; rather that than the pixel.
-Vec2 free_corner(const PanelArea& room, const Vec2& size, const PanelArea& pixel, const PanelArea& taken);
+struct FreeCorner {
+    Vec2 pivot{1, 1};
+    bool hides = false;  // something all the same
+};
+FreeCorner free_corner(const PanelArea& room, const Vec2& size, const PanelArea& pixel, const TakenAreas& taken);
 // How high a panel of that width may be in the room without hiding the pixel.
 float free_height(const PanelArea& room, float width, const PanelArea& pixel);
 // The path of that pixel's brightest sample in the picture.
@@ -59,11 +65,11 @@ std::string comparison_words(const ViewerModel& model);
 // the colours with their numbers.
 std::optional<float> wipe_x(const ViewerModel& model);
 void draw_wipe(const ViewerModel& model);
-void draw_legend(const ViewerModel& model, bool beside_readings);
+PanelArea draw_legend(const ViewerModel& model, bool beside_readings);
 void draw_help();
 PanelArea draw_statistics(const ViewerModel& model);
 // The exact values of a validation scene, marked in the picture; nothing for other scenes.
-void draw_validation(const ViewerModel& model, const std::vector<ValidationReading>& readings);
+PanelArea draw_validation(const ViewerModel& model, const std::vector<ValidationReading>& readings);
 // Bookmarks and views that were left: a section of the side panel.
 void views_section(ViewerModel& model, PanelEdits& edits);
 // Lights that are re-weighted: a section of the side panel.

@@ -126,18 +126,20 @@ void draw_path(const ViewerModel& model) {
     }
 }
 
-Vec2 free_corner(const PanelArea& room, const Vec2& size, const PanelArea& pixel, const PanelArea& taken) {
-    Vec2 pivot(1, 1);
-    int least_hidden = 3;
+FreeCorner free_corner(const PanelArea& room, const Vec2& size, const PanelArea& pixel, const TakenAreas& taken) {
+    FreeCorner out;
+    int least_hidden = std::numeric_limits<int>::max();
     for (const Vec2& each : {Vec2(1, 1), Vec2(1, 0), Vec2(0, 1), Vec2(0, 0)}) {
         const Vec2 low = room.low + each * (room.high - room.low - size);
         const PanelArea area{low, low + size};
-        const int hidden = (area.overlaps(pixel) ? 2 : 0) + (area.overlaps(taken) ? 1 : 0);
+        int hidden = area.overlaps(pixel) ? 1 + static_cast<int>(taken.size()) : 0;
+        for (const PanelArea& panel : taken)
+            hidden += area.overlaps(panel) ? 1 : 0;
         if (hidden >= least_hidden) continue;
         least_hidden = hidden;
-        pivot = each;
+        out = {each, hidden > 0};
     }
-    return pivot;
+    return out;
 }
 
 float free_height(const PanelArea& room, float width, const PanelArea& pixel) {
@@ -145,7 +147,7 @@ float free_height(const PanelArea& room, float width, const PanelArea& pixel) {
     return beside ? room.high.y - room.low.y : std::max(pixel.low.y - room.low.y, room.high.y - pixel.high.y);
 }
 
-PanelArea draw_pixel_panel(const ViewerModel& model, const PanelArea& taken, const PanelArea& before) {
+PanelArea draw_pixel_panel(const ViewerModel& model, const TakenAreas& taken, const PanelArea& before) {
     if (!model.inspection || !model.has_scene()) return {};
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float unit = ImGui::GetFontSize();
@@ -165,7 +167,11 @@ PanelArea draw_pixel_panel(const ViewerModel& model, const PanelArea& taken, con
         width = narrow;
         height = free_height(room, width, marked);
     }
-    const Vec2 pivot = free_corner(room, before.high - before.low, marked, taken);
+    // Where the path's table would stand over another panel, it waits until that is put away.
+    const Vec2 all(width, std::min(height, row_height * static_cast<float>(rows)));
+    const bool small = high.x - low.x < 46 * unit || is_tiny();
+    const bool brief = small || free_corner(room, all, marked, taken).hides;
+    const Vec2 pivot = free_corner(room, before.high - before.low, marked, taken).pivot;
     const Vec2 place = low + pivot * (high - low);
     ImGui::SetNextWindowPos({place.x, place.y}, ImGuiCond_Always, {pivot.x, pivot.y});
     ImGui::Begin("Pixel", nullptr,
@@ -174,8 +180,8 @@ PanelArea draw_pixel_panel(const ViewerModel& model, const PanelArea& taken, con
                      ImGuiWindowFlags_NoInputs);
 
     // Of the path as much as there is room for, without hiding the pixel.
-    const bool brief = high.x - low.x < 46 * unit || is_tiny();
     pixel_rows(model, *model.inspection, brief);
+    if (brief && !small) ImGui::TextDisabled("its path: when there is room");
     const float rows_left = (height - ImGui::GetCursorPosY()) / row_height - 5;
     const size_t most_rows = std::min(static_cast<size_t>(std::max(rows_left, 0.0f)), most_path_rows);
     if (!brief && most_rows >= least_path_rows) {

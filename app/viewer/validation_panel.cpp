@@ -8,7 +8,7 @@ namespace candela {
 
 namespace {
 
-void draw_table(const std::vector<ValidationReading>& readings) {
+PanelArea draw_table(const std::vector<ValidationReading>& readings) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float unit = ImGui::GetFontSize();
     // Above the status line, where nothing else opens.
@@ -34,14 +34,16 @@ void draw_table(const std::vector<ValidationReading>& readings) {
         }
         ImGui::EndTable();
     }
+    const PanelArea now = current_panel_area();
     ImGui::End();
+    return now;
 }
 
 }  // namespace
 
-void draw_validation(const ViewerModel& model, const std::vector<ValidationReading>& readings) {
-    if (readings.empty()) return;
-    if (has_room_beside_panels(model)) draw_table(readings);
+PanelArea draw_validation(const ViewerModel& model, const std::vector<ValidationReading>& readings) {
+    if (readings.empty()) return {};
+    const PanelArea table = has_room_beside_panels(model) ? draw_table(readings) : PanelArea{};
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float unit = ImGui::GetFontSize();
     // A ring around each point, in dark and light so that it shows on any ground.
@@ -55,6 +57,7 @@ void draw_validation(const ViewerModel& model, const std::vector<ValidationReadi
         draw->AddText({at.x + 0.7f * unit - 1, at.y - 1.4f * unit - 1}, IM_COL32(255, 255, 255, 255),
                       r.of->name.c_str());
     }
+    return table;
 }
 
 }  // namespace candela

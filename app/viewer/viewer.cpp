@@ -459,15 +459,16 @@ void Viewer::draw() {
         draw_wipe(model_);
         draw_badge(model_);
         draw_path(model_);
-        const PanelArea before = std::exchange(pixel_panel_, draw_pixel_panel(model_, statistics, pixel_panel_));
-        // Of another size it may belong elsewhere.
-        if (before != pixel_panel_) redraws_ = std::max(redraws_, 1);
+        TakenAreas taken{statistics};
         if (model_.has_scene()) {
             const std::vector<ValidationReading> readings =
                 read_validation(model_.job.scene_path, *model_.job.world, model_.job.request.view, frame_);
-            draw_validation(model_, readings);
-            draw_legend(model_, !readings.empty());
+            taken[1] = draw_validation(model_, readings);
+            taken[2] = draw_legend(model_, !readings.empty());
         }
+        const PanelArea before = std::exchange(pixel_panel_, draw_pixel_panel(model_, taken, pixel_panel_));
+        // Of another size it may belong elsewhere.
+        if (before != pixel_panel_) redraws_ = std::max(redraws_, 1);
         if (model_.show_panels) edits = draw_side_panel(model_);
         if (timeline_is_shown(model_)) draw_timeline(model_, edits);
         if (model_.show_help) draw_help();

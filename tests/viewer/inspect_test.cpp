@@ -61,7 +61,7 @@ TEST(PixelPanel, ItHidesNeitherThePixelNorOtherPanels) {
     const PanelArea room{{10, 10}, {910, 610}}, statistics{{10, 10}, {500, 300}};
     const Vec2 size(300, 200);
     const auto corner = [&](Vec2 pixel, const PanelArea& taken) {
-        return free_corner(room, size, {pixel - 15.0f, pixel + 15.0f}, taken);
+        return free_corner(room, size, {pixel - 15.0f, pixel + 15.0f}, {taken}).pivot;
     };
     EXPECT_EQ(corner({100, 100}, {}), Vec2(1, 1));
     EXPECT_EQ(free_height(room, 300, {{485, 385}, {515, 415}}), 600) << "there is room beside the pixel";
@@ -72,8 +72,12 @@ TEST(PixelPanel, ItHidesNeitherThePixelNorOtherPanels) {
     EXPECT_EQ(corner({500, 400}, {{600, 10}, {910, 610}}), Vec2(0, 1));
     EXPECT_EQ(corner({700, 500}, {{600, 10}, {910, 610}}), Vec2(0, 1));
     EXPECT_EQ(corner({200, 500}, {{600, 10}, {910, 610}}), Vec2(0, 0));
-    EXPECT_EQ(free_corner(room, {800, 400}, {{800, 500}, {830, 530}}, statistics), Vec2(1, 0))
-        << "rather the statistics are hidden than the pixel";
+    const FreeCorner large = free_corner(room, {800, 400}, {{800, 500}, {830, 530}}, {statistics});
+    EXPECT_TRUE(large.hides);
+    EXPECT_EQ(large.pivot, Vec2(1, 0)) << "rather the statistics are hidden than the pixel";
+    const FreeCorner small = free_corner(room, size, {{100, 500}, {130, 530}}, {statistics, {{600, 300}, {910, 610}}});
+    EXPECT_FALSE(small.hides);
+    EXPECT_EQ(small.pivot, Vec2(1, 0)) << "all other corners are taken";
 }
 
 TEST(Notices, TheyStandBesideStatisticsAndPanelsOrUnderThem) {
