@@ -34,11 +34,6 @@ SceneBookmarks scene_from(const json& entry) {
     return out;
 }
 
-bool same(const std::optional<Bookmark>& a, const std::optional<Bookmark>& b) {
-    if (!a || !b) return a.has_value() == b.has_value();
-    return *a == *b;
-}
-
 }  // namespace
 
 std::filesystem::path bookmarks_path() {
@@ -102,7 +97,7 @@ void add_changes(RememberedBookmarks& all, const std::string& key, const Bookmar
     SceneBookmarks scene = found != all.end() ? std::move(*found) : SceneBookmarks{key, {}};
     if (found != all.end()) all.erase(found);
     for (size_t digit = 0; digit < now.size(); ++digit) {
-        if (now[digit] && !same(before[digit], now[digit])) scene.views[digit] = text_of(*now[digit]);
+        if (now[digit] && now[digit] != before[digit]) scene.views[digit] = text_of(*now[digit]);
     }
     all.insert(all.begin(), std::move(scene));
     if (all.size() > most_bookmarked_scenes) all.resize(most_bookmarked_scenes);

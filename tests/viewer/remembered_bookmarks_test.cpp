@@ -125,6 +125,14 @@ TEST_F(RememberedBookmarksTest, TheLastScenesAreKeptAndOnlyChangesAreTaken) {
     add_changes(all, "/100", none, other);
     EXPECT_EQ(all.front().scene, "/100");
     EXPECT_EQ(all.front().views.size(), 2u);
+    // Nor is what it stored in the meantime taken back.
+    Bookmarks mine = one, theirs = one;
+    theirs[1]->tone.exposure_ev = 3;
+    mine[4] = some_view();
+    add_changes(all, "/100", one, theirs);
+    add_changes(all, "/100", one, mine);
+    EXPECT_EQ(all.front().views.at(1), text_of(*theirs[1]));
+    EXPECT_EQ(all.front().views.count(4), 1u);
     EXPECT_EQ(all.size(), most_bookmarked_scenes);
 }
 
