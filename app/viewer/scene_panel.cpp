@@ -31,7 +31,8 @@ class Editor {
     bool changed_ = false;
 };
 
-// Layers whose compilation needs more than factors (tangents, bodies) only where the file has them.
+// Layers whose compilation needs more than factors (tangents, bodies) only where the material has them, and these not
+// down to nothing: they could not be brought back.
 void edit_layers(const Material& own, Material& material, Editor& editor) {
     editor.color("sheen", material.sheen.color_factor);
     editor.slider("its roughness##sheen", material.sheen.roughness_factor, 0, 1);
@@ -41,13 +42,13 @@ void edit_layers(const Material& own, Material& material, Editor& editor) {
     editor.slider("its ior", material.iridescence.ior, 1, 3);
     editor.slider("its film", material.iridescence.thickness_maximum_nm, 0, 1200, "%.0f nm");
     if (own.anisotropy.strength > 0) {
-        editor.slider("anisotropy", material.anisotropy.strength, 0, 1);
+        editor.slider("anisotropy", material.anisotropy.strength, 0.01f, 1);
         float degrees = glm::degrees(material.anisotropy.rotation_radians);
         if (editor.slider("its turn", degrees, -180, 180, "%.0f°"))
             material.anisotropy.rotation_radians = glm::radians(degrees);
     }
     if (own.diffuse_transmission.factor > 0) {
-        editor.slider("translucency", material.diffuse_transmission.factor, 0, 1);
+        editor.slider("translucency", material.diffuse_transmission.factor, 0.01f, 1);
         editor.color("its colour##translucency", material.diffuse_transmission.color_factor);
     }
     if (own.has_volume()) {
