@@ -15,7 +15,7 @@ const ImU32 path_color = IM_COL32(232, 163, 61, 255), light_color = IM_COL32(110
 // Of a path; and fewer say too little.
 constexpr size_t most_path_rows = 18, least_path_rows = 3;
 // Of the panel, in sizes of the font: as wide as names want it, and where that leaves room for fewer rows.
-constexpr float most_width = 58, usual_width = 42;
+constexpr float most_width = 58, usual_width = 46;
 constexpr size_t rows_over_path = 12;
 
 std::string color_text(const Vec3& c) {
