@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
 
+#include "app/viewer/fields.h"
 #include "app/viewer/panels.h"
 
 namespace candela {
@@ -28,24 +28,13 @@ bool is_number(size_t column) {
     return column == 0 || (column >= 3 && column <= 8);
 }
 
-// The beginning of a text, as much as there is room for.
-std::string fitted(std::string text, float width) {
-    if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
-    while (!text.empty() && ImGui::CalcTextSize((text + "…").c_str()).x > width) {
-        // A character of UTF-8 goes as a whole.
-        while (text.size() > 1 && (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80)
-            text.pop_back();
-        text.pop_back();
-    }
-    return text + "…";
-}
-
 // Every column is as wide as its widest cell; figures end at its right, and names give way.
 void draw_cells(std::vector<Cells> cells, const std::vector<LedgerRow>& rows, float most_width) {
+    const auto text_width = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
     std::array<float, columns> widths{};
     for (const Cells& line : cells) {
         for (size_t c = 0; c < columns; ++c)
-            widths[c] = std::max(widths[c], ImGui::CalcTextSize(line[c].c_str()).x);
+            widths[c] = std::max(widths[c], text_width(line[c]));
     }
     const float gaps = 2 * columns * ImGui::GetStyle().CellPadding.x;
     const float excess = std::accumulate(widths.begin(), widths.end(), gaps) - most_width;
@@ -53,7 +42,7 @@ void draw_cells(std::vector<Cells> cells, const std::vector<LedgerRow>& rows, fl
         float& width = widths[surface_column];
         width = std::max(width - excess, 4 * ImGui::GetFontSize());
         for (Cells& line : cells)
-            line[surface_column] = fitted(std::move(line[surface_column]), width);
+            line[surface_column] = shortened(line[surface_column], width, text_width);
     }
     if (!ImGui::BeginTable("ledger", columns, ImGuiTableFlags_SizingFixedFit)) return;
     for (const float width : widths)
@@ -63,7 +52,7 @@ void draw_cells(std::vector<Cells> cells, const std::vector<LedgerRow>& rows, fl
         if (is_quiet) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
         for (size_t c = 0; c < columns; ++c) {
             ImGui::TableNextColumn();
-            const float room = widths[c] - ImGui::CalcTextSize(cells[i][c].c_str()).x;
+            const float room = widths[c] - text_width(cells[i][c]);
             if (is_number(c)) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
             ImGui::TextUnformatted(cells[i][c].c_str());
         }
