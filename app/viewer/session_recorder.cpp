@@ -57,11 +57,14 @@ void SessionRecorder::end_frame(const Viewer& viewer, bool drawn) {
     frame_.drawn = drawn;
     if (!frame_.events.empty() || frame_.loads != loads_written_) settles_ = settling_frames;
     const bool draws_what_may_change = drawn && (settles_ > 0 || held_ > 0);
+    // Notices go away by themselves.
+    const bool notice_changed = viewer.model().notice != notice_;
     const bool says_something = !frame_.events.empty() || frame_.loads != loads_written_ || clock_ran_ ||
-                                viewer.clock_matters() || draws_what_may_change;
+                                viewer.clock_matters() || draws_what_may_change || notice_changed;
     if (drawn) settles_ = std::max(settles_ - 1, 0);
     if (!says_something) return;
     loads_written_ = frame_.loads;
+    notice_ = viewer.model().notice;
     file_ << frame_text(frame_) << std::flush;
 }
 

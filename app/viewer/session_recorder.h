@@ -27,8 +27,9 @@ class SessionRecorder {
     std::ofstream file_;
     RecordedFrame frame_;
     uint32_t loads_written_ = 0;
-    int held_ = 0;     // keys and buttons
-    int settles_ = 0;  // frames until panels have settled
+    std::string notice_;  // that the last frame written ended with
+    int held_ = 0;        // keys and buttons
+    int settles_ = 0;     // frames until panels have settled
     bool clock_ran_ = false;
 };
 

@@ -155,6 +155,22 @@ TEST(Recordings, FlyingPastingReloadingAndThePanelsByKeyboardComeBackToTheBit) {
     EXPECT_EQ(seen.pixels(), replayed(path, 1).pixels());
 }
 
+TEST(Recordings, ANoticeGoesAwayAsItDid) {
+    const test::TemporaryFolder folder("candela recording");
+    const std::string path = (folder.path() / "a.rec").string();
+    RecordedSession session(path, {"assets/cornell_box.glb", "--spp", "16", "-t", "2"}, {320, 120});
+    session.press(Key::z, {.ctrl = true});
+    const std::string notice = session.viewer().model().notice;
+    EXPECT_EQ(notice, "there is nothing to undo");
+    // More pictures than panels need to settle come before it goes.
+    session.round({Scrolled{{0, 1}}});
+    for (int i = 0; i < 1000 && !session.viewer().model().notice.empty(); ++i)
+        session.round({});
+    EXPECT_EQ(session.viewer().model().notice, "");
+    const ImageRgba8 seen = session.finish();
+    EXPECT_EQ(seen.pixels(), replayed(path, 1).pixels());
+}
+
 TEST(SteadyFigures, NothingThatWasMeasuredIsLeft) {
     SessionStatus status;
     status.spp = 4;
