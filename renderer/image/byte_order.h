@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Little-endian numbers in a byte string. The caller has checked that they are there.
+// Numbers in a byte string, little-endian where the name says nothing else. The caller has checked that they are there.
 #pragma once
 
 #include <bit>
@@ -25,6 +25,9 @@ inline uint32_t read_u32(std::span<const std::byte> bytes, size_t offset) {
 }
 inline uint64_t read_u64(std::span<const std::byte> bytes, size_t offset) {
     return read_little_endian<uint64_t>(bytes, offset);
+}
+inline uint32_t read_big_endian_u32(std::span<const std::byte> bytes, size_t offset) {
+    return __builtin_bswap32(read_u32(bytes, offset));
 }
 
 }  // namespace candela

@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 
+#include "renderer/image/byte_order.h"
 #include "renderer/image/codecs.h"
 #include "renderer/image/png_filters.h"
 
@@ -18,13 +19,6 @@ constexpr uint32_t name_of(const char (&text)[5]) {
     uint32_t out = 0;
     for (int i = 0; i < 4; ++i)
         out = out << 8 | static_cast<uint8_t>(text[i]);
-    return out;
-}
-
-uint32_t big_endian_32(std::span<const std::byte> bytes, size_t at) {
-    uint32_t out = 0;
-    for (size_t i = 0; i < 4; ++i)
-        out = out << 8 | std::to_integer<uint32_t>(bytes[at + i]);
     return out;
 }
 
@@ -42,7 +36,7 @@ constexpr size_t longest_chunk_bytes = size_t{64} << 20;
 // The next one; nothing where the file ends in it, or what is there is none.
 std::optional<Chunk> take_chunk(std::span<const std::byte>& rest) {
     if (rest.size() < 12) return std::nullopt;
-    const size_t length = big_endian_32(rest, 0);
+    const size_t length = read_big_endian_u32(rest, 0);
     if (length > longest_chunk_bytes || length > rest.size() - 12) return std::nullopt;
     const auto is_letter = [](std::byte b) {
         const auto lower = std::to_integer<unsigned>(b | std::byte{0x20});
@@ -50,11 +44,11 @@ std::optional<Chunk> take_chunk(std::span<const std::byte>& rest) {
     };
     if (!std::all_of(rest.begin() + 4, rest.begin() + 8, is_letter)) return std::nullopt;
     Chunk out;
-    out.name = big_endian_32(rest, 4);
+    out.name = read_big_endian_u32(rest, 4);
     out.data = rest.subspan(8, length);
     // That of the others does not matter: they are not read.
     if (!out.is_ancillary())
-        out.intact = libdeflate_crc32(0, rest.data() + 4, length + 4) == big_endian_32(rest, 8 + length);
+        out.intact = libdeflate_crc32(0, rest.data() + 4, length + 4) == read_big_endian_u32(rest, 8 + length);
     rest = rest.subspan(12 + length);
     return out;
 }
@@ -82,11 +76,11 @@ std::optional<Truecolor> read_chunks(std::span<const std::byte> bytes) {
     const std::optional<Chunk> header = take_chunk(rest);
     if (!header || header->name != name_of("IHDR") || !header->intact || header->data.size() != 13) return std::nullopt;
     Truecolor out;
-    out.width = big_endian_32(header->data, 0);
-    out.height = big_endian_32(header->data, 4);
+    out.width = read_big_endian_u32(header->data, 0);
+    out.height = read_big_endian_u32(header->data, 4);
     constexpr uint32_t largest = std::numeric_limits<int32_t>::max();
     if (out.width == 0 || out.height == 0 || out.width > largest || out.height > largest) return std::nullopt;
-    const uint32_t kind = big_endian_32(header->data, 8);
+    const uint32_t kind = read_big_endian_u32(header->data, 8);
     constexpr uint32_t rgb = 0x08'02'00'00, rgba = 0x08'06'00'00;
     if ((kind != rgb && kind != rgba) || header->data[12] != std::byte{0}) return std::nullopt;
     out.channels = kind == rgb ? 3 : 4;

@@ -316,7 +316,7 @@ TEST(PngTruecolor, LimitsAreLibpngs) {
 
 TEST(PngTruecolor, SharedPicturesAreTheSame) {
     const std::filesystem::path models = test::shared_data() / "models";
-    if (!std::filesystem::exists(models)) GTEST_SKIP() << "no shared data";
+    if (!std::filesystem::exists(models)) GTEST_SKIP() << "skipped: no shared data";
     size_t files = 0, own = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(models)) {
         if (entry.path().extension() != ".png") continue;

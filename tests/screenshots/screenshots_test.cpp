@@ -135,6 +135,7 @@ std::string name_of(const testing::TestParamInfo<Shot>& shot) {
 
 INSTANTIATE_TEST_SUITE_P(Recorded, Screenshots, testing::ValuesIn(recorded), name_of);
 INSTANTIATE_TEST_SUITE_P(Viewer, Screenshots, testing::ValuesIn(scenes), name_of);
+INSTANTIATE_TEST_SUITE_P(Recorded, Comparison, testing::ValuesIn(recorded), name_of);
 INSTANTIATE_TEST_SUITE_P(Viewer, Comparison, testing::ValuesIn(scenes), name_of);
 
 }  // namespace
